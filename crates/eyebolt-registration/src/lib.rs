@@ -1,1 +1,33 @@
-//! See the crate's description in Cargo.toml.
+//! Registration of a posed arm to what a depth camera saw: distance fields, a global search that
+//! needs no initial guess, and a robust refinement with an outcome.
+
+mod arm;
+mod cache;
+mod distance_build;
+mod distance_field;
+mod factors;
+mod image_distance;
+mod link_model;
+mod normal_equations;
+mod refine;
+mod robust;
+mod rotations;
+mod search;
+mod silhouette;
+mod simplify;
+mod surface_sample;
+mod triangle;
+mod view;
+
+pub use arm::{ArmLink, ArmModel, NearestSurface, Posture};
+pub use cache::LinkCache;
+pub use distance_field::{DistanceField, DistanceSample};
+pub use link_model::LinkModel;
+pub use normal_equations::NormalEquations;
+pub use refine::{RefineOptions, RefineView, Refinement, StopReason, ViewFit, refine};
+pub use robust::median;
+pub use rotations::spread_rotations;
+pub use search::{Candidate, SearchView, search};
+pub use silhouette::{Label, Labels, Silhouette};
+pub use surface_sample::SurfacePoint;
+pub use view::{Evidence, View};

@@ -1,1 +1,10 @@
-//! See the crate's description in Cargo.toml.
+//! Depth images and silhouettes of a posed robot.
+//!
+//! A z-buffer over triangles: fast enough to be redrawn in every step of a registration. Light,
+//! colour and sensor noise are none of its business.
+
+mod contour;
+mod raster;
+
+pub use contour::{ContourPoint, contour};
+pub use raster::{PosedMesh, Raster};

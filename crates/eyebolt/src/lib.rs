@@ -1,1 +1,7 @@
-//! See the crate's description in Cargo.toml.
+//! The stages of eyebolt.
+
+pub mod label;
+pub mod pose;
+pub mod record;
+pub mod refine;
+pub mod session;

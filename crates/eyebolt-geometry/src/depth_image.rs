@@ -1,0 +1,141 @@
+//! Depth images and the rays of their pixels.
+
+use crate::camera::PinholeCamera;
+use crate::cloud::Cloud;
+use crate::image::{ImageError, check_size};
+use nalgebra::{Point2, Point3};
+use rayon::prelude::*;
+
+/// Depth along z of the optical frame, metres, row by row; 0 where there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DepthImage {
+    width: u32,
+    height: u32,
+    depth_m: Vec<f32>,
+}
+
+impl DepthImage {
+    /// From depths in metres, row by row. NaN, infinity and negative numbers become 0: no depth.
+    ///
+    /// # Errors
+    ///
+    /// An empty image, or another number of depths than `width * height`.
+    pub fn new(width: u32, height: u32, mut depth_m: Vec<f32>) -> Result<Self, ImageError> {
+        check_size(width, height, depth_m.len())?;
+        for depth in &mut depth_m {
+            // Negative zero becomes zero too.
+            if !(depth.is_finite() && *depth > 0.0) {
+                *depth = 0.0;
+            }
+        }
+        Ok(Self { width, height, depth_m })
+    }
+
+    /// From depths that are known to be clean and to fill the image.
+    pub(crate) fn from_clean(width: u32, height: u32, depth_m: Vec<f32>) -> Self {
+        Self { width, height, depth_m }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All depths in metres, row by row; 0 where there is none.
+    pub fn depth_m(&self) -> &[f32] {
+        &self.depth_m
+    }
+
+    /// All depths in metres, row by row; 0 where there is none.
+    pub fn into_depth_m(self) -> Vec<f32> {
+        self.depth_m
+    }
+
+    /// Depth of pixel `(u, v)` in metres; 0 where there is none and off the image.
+    pub fn at(&self, u: u32, v: u32) -> f32 {
+        if u >= self.width || v >= self.height {
+            return 0.0;
+        }
+        self.depth_m.get(v as usize * self.width as usize + u as usize).copied().unwrap_or(0.0)
+    }
+
+    /// Share of the pixels that have a depth, 0 to 1.
+    pub fn share_valid(&self) -> f64 {
+        let valid = self.depth_m.iter().filter(|d| **d > 0.0).count();
+        valid as f64 / self.depth_m.len() as f64
+    }
+
+    /// The organised cloud of the image in the camera frame.
+    ///
+    /// For many images of one camera, make its [`RayTable`] once.
+    ///
+    /// # Errors
+    ///
+    /// The camera is of another size.
+    pub fn unproject(&self, camera: &PinholeCamera) -> Result<Cloud, ImageError> {
+        RayTable::new(camera).unproject(self)
+    }
+}
+
+/// The ray of every pixel of a camera, as `[x / z, y / z]`, row by row; NaN where there is none.
+///
+/// Computed once per camera, so that a lens costs nothing per image.
+#[derive(Clone, Debug)]
+pub struct RayTable {
+    width: u32,
+    height: u32,
+    rays: Vec<[f32; 2]>,
+}
+
+impl RayTable {
+    /// The rays of `camera`.
+    pub fn new(camera: &PinholeCamera) -> Self {
+        let (width, height) = (camera.width(), camera.height());
+        let row = |v: u32| {
+            (0..width).map(move |u| match camera.ray(&Point2::new(f64::from(u), f64::from(v))) {
+                Some(ray) => [ray.x as f32, ray.y as f32],
+                None => [f32::NAN; 2],
+            })
+        };
+        let rays = (0..height).into_par_iter().flat_map_iter(row).collect();
+        Self { width, height, rays }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// `[x / z, y / z]` of every pixel, row by row; NaN where the lens has no ray.
+    pub fn rays(&self) -> &[[f32; 2]] {
+        &self.rays
+    }
+
+    /// The organised cloud of `image` in the camera frame, metres.
+    ///
+    /// # Errors
+    ///
+    /// The image is of another size than the camera of the rays.
+    pub fn unproject(&self, image: &DepthImage) -> Result<Cloud, ImageError> {
+        let (size, own) = ((image.width, image.height), (self.width, self.height));
+        if size != own {
+            return Err(ImageError::Camera { image: size, camera: own });
+        }
+        let point = |(depth, [x, y]): (&f32, &[f32; 2])| match *depth > 0.0 {
+            true => Point3::new(x * depth, y * depth, *depth),
+            false => Point3::new(f32::NAN, f32::NAN, f32::NAN),
+        };
+        let points = image.depth_m.iter().zip(&self.rays).map(point).collect();
+        Cloud::organised(self.width, self.height, points)
+    }
+}

@@ -1,0 +1,59 @@
+//! Weighted least squares, summed up.
+
+use nalgebra::{SMatrix, SVector};
+
+/// `H delta = -g` of a least-squares problem with `N` unknowns.
+///
+/// Sums are taken in a fixed order by whoever adds, so the same data give the same bits on any
+/// number of threads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalEquations<const N: usize> {
+    /// Sum of `w J^T J`.
+    pub information: SMatrix<f64, N, N>,
+    /// Sum of `w J^T r`.
+    pub gradient: SVector<f64, N>,
+    /// Sum of the robust costs.
+    pub cost: f64,
+    /// Sum of the weights.
+    pub weight: f64,
+}
+
+impl<const N: usize> Default for NormalEquations<N> {
+    fn default() -> Self {
+        Self {
+            information: SMatrix::zeros(),
+            gradient: SVector::zeros(),
+            cost: 0.0,
+            weight: 0.0,
+        }
+    }
+}
+
+impl<const N: usize> NormalEquations<N> {
+    /// Adds one residual with derivative `jacobian` and weight `weight`.
+    pub fn add(&mut self, jacobian: &SVector<f64, N>, residual: f64, weight: f64) {
+        self.information.ger(weight, jacobian, jacobian, 1.0);
+        self.gradient.axpy(weight * residual, jacobian, 1.0);
+        self.weight += weight;
+    }
+
+    /// Adds another sum, scaled by `factor`.
+    pub fn add_scaled(&mut self, other: &Self, factor: f64) {
+        self.information += other.information * factor;
+        self.gradient += other.gradient * factor;
+        self.cost += other.cost * factor;
+        self.weight += other.weight * factor;
+    }
+
+    /// The step that minimises the linearised problem, with `damping` times the diagonal added.
+    ///
+    /// `None` where the data do not determine every unknown.
+    pub fn solve(&self, damping: f64) -> Option<SVector<f64, N>> {
+        let mut damped = self.information;
+        for i in 0..N {
+            damped[(i, i)] *= 1.0 + damping;
+        }
+        let step = damped.cholesky()?.solve(&-self.gradient);
+        step.iter().all(|v| v.is_finite()).then_some(step)
+    }
+}

@@ -1,0 +1,236 @@
+//! A start from nothing: where the base may be, over all rotations and translations.
+//!
+//! Rotations spread over SO(3), each with the translation that lays the visible side of the arm
+//! on the points seen; every one is polished on a coarse distance field of the whole arm, the best
+//! are polished further with all points, and what the camera saw through counts against them.
+
+use crate::arm::{ArmModel, Posture};
+use crate::distance_field::DistanceField;
+use crate::normal_equations::NormalEquations;
+use crate::robust::geman_mcclure;
+use crate::rotations::spread_rotations;
+use crate::surface_sample::SurfacePoint;
+use crate::view::{Evidence, View};
+use eyebolt_geometry::{Base, Camera, Transform};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
+use rayon::prelude::*;
+
+/// One configuration in the search.
+#[derive(Clone, Debug)]
+pub struct SearchView<'a> {
+    /// What was seen, and the arm's configuration.
+    pub view: View<'a>,
+    /// Points that are on the arm, or most of them: camera frame, metres.
+    pub arm_points: Vec<Point3<f32>>,
+    /// The part of the arm's surface that `arm_points` came from, base frame.
+    pub surface: Vec<SurfacePoint>,
+}
+
+/// A pose that the search found.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// The pose.
+    pub camera_from_base: Transform<Camera, Base>,
+    /// Mean distance of the points seen from the arm, capped, metres.
+    pub distance_m: f64,
+    /// Share of the arm's surface that the views contradict, of what they can judge.
+    pub contradicted: f64,
+}
+
+impl Candidate {
+    /// What the search minimises: metres, with one cap's worth for a wholly contradicted arm.
+    pub fn score(&self) -> f64 {
+        self.distance_m + CAP_M * self.contradicted
+    }
+}
+
+const CAP_M: f64 = 0.10;
+/// Rotations tried: one within about 14 degrees of any.
+const ROTATIONS: usize = 4000;
+/// How many starts are polished with all points.
+const POLISHED: usize = 160;
+const COARSE_VOXEL_M: f32 = 0.03;
+const COARSE_MARGIN_M: f32 = 0.15;
+
+/// Poses of the base that explain the views, best first, each at least 10 degrees or 10 cm from
+/// the ones before it; at most `wanted`.
+///
+/// Empty if there are no views or a view has no points.
+pub fn search(arm: &ArmModel, views: &[SearchView<'_>], wanted: usize) -> Vec<Candidate> {
+    if views.is_empty() || views.iter().any(|v| v.arm_points.is_empty() || v.surface.is_empty()) {
+        return Vec::new();
+    }
+    let fields: Vec<DistanceField> =
+        views.par_iter().map(|view| whole_arm(arm, view.view.posture)).collect();
+    let few: Vec<Problem<'_>> = problems(views, &fields, 24, 40);
+    let many: Vec<Problem<'_>> = problems(views, &fields, 200, 120);
+    let mut starts: Vec<Candidate> = spread_rotations(ROTATIONS)
+        .par_iter()
+        .map(|rotation| {
+            let start = start_translation(&few, rotation);
+            judge(&few, polish(&few, start, &[0.20, 0.15, 0.10, 0.08]))
+        })
+        .collect();
+    sort(&mut starts);
+    let starts = distinct(&starts, POLISHED, 0.05, 6f64.to_radians());
+    let scales = [0.10, 0.08, 0.06, 0.05, 0.04, 0.04, 0.03, 0.03, 0.03, 0.03];
+    let mut polished: Vec<Candidate> = starts
+        .par_iter()
+        .map(|start| judge(&many, polish(&many, *start.camera_from_base.inverse().isometry(), &scales)))
+        .collect();
+    sort(&mut polished);
+    distinct(&polished, wanted, 0.10, 10f64.to_radians())
+}
+
+fn sort(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| a.score().total_cmp(&b.score()));
+}
+
+fn distinct(sorted: &[Candidate], wanted: usize, apart_m: f64, apart_rad: f64) -> Vec<Candidate> {
+    let mut kept: Vec<Candidate> = Vec::new();
+    for candidate in sorted {
+        if kept.len() == wanted {
+            break;
+        }
+        let near = kept.iter().any(|other| {
+            let (metres, radians) = candidate.camera_from_base.distance_to(&other.camera_from_base);
+            metres < apart_m && radians < apart_rad
+        });
+        if !near {
+            kept.push(*candidate);
+        }
+    }
+    kept
+}
+
+/// The distance to the whole arm in one configuration, base frame, on a coarse grid.
+fn whole_arm(arm: &ArmModel, posture: &Posture) -> DistanceField {
+    let mut low = Point3::from(Vector3::repeat(f32::INFINITY));
+    let mut high = Point3::from(Vector3::repeat(f32::NEG_INFINITY));
+    for (link, base_from_link) in arm.links().iter().zip(posture.base_from_link()) {
+        for surface in &link.model.surface {
+            let p = base_from_link.point(&surface.point.cast()).cast();
+            (low, high) = (low.inf(&p), high.sup(&p));
+        }
+    }
+    let origin = low - Vector3::repeat(COARSE_MARGIN_M);
+    let span = high - low + Vector3::repeat(2.0 * COARSE_MARGIN_M);
+    let size = [0, 1, 2].map(|axis| (span[axis] / COARSE_VOXEL_M).ceil() as usize + 1);
+    DistanceField::from_fn(origin, COARSE_VOXEL_M, size, 2.0, |p| {
+        posture.nearest(arm, p).map_or(f32::INFINITY, |nearest| nearest.distance_m)
+    })
+}
+
+/// One view with as many points as a stage of the search looks at.
+struct Problem<'a> {
+    view: &'a View<'a>,
+    field: &'a DistanceField,
+    arm_points: Vec<Point3<f32>>,
+    surface: Vec<SurfacePoint>,
+    centroid: Vector3<f32>,
+}
+
+fn problems<'a>(
+    views: &'a [SearchView<'a>],
+    fields: &'a [DistanceField],
+    points: usize,
+    surface: usize,
+) -> Vec<Problem<'a>> {
+    let pair = views.iter().zip(fields);
+    pair.map(|(view, field)| {
+        let sum: Vector3<f32> = view.arm_points.iter().map(|p| p.coords).sum();
+        Problem {
+            view: &view.view,
+            field,
+            arm_points: thinned(&view.arm_points, points),
+            surface: thinned(&view.surface, surface),
+            centroid: sum / view.arm_points.len() as f32,
+        }
+    })
+    .collect()
+}
+
+/// About `count` of `items`, evenly spread.
+pub(crate) fn thinned<T: Copy>(items: &[T], count: usize) -> Vec<T> {
+    let count = count.min(items.len());
+    (0..count).map(|i| items[(2 * i + 1) * items.len() / (2 * count)]).collect()
+}
+
+/// `base_from_camera` of this rotation that lays the side of the arm turned to the camera on the
+/// points seen.
+fn start_translation(
+    problems: &[Problem<'_>],
+    base_from_camera: &UnitQuaternion<f64>,
+) -> Isometry3<f64> {
+    let rotation = base_from_camera.cast::<f32>();
+    let mut sum = Vector3::zeros();
+    for problem in problems {
+        let sight = rotation * problem.centroid;
+        let visible = problem.surface.iter().filter(|s| s.normal.dot(&sight) < 0.0);
+        let (total, count) = visible
+            .fold((Vector3::zeros(), 0usize), |(t, n), s| (t + s.point.coords, n + 1));
+        sum += total / count.max(1) as f32 - sight;
+    }
+    let translation = sum / problems.len() as f32;
+    Isometry3::from_parts(Translation3::from(translation.cast::<f64>()), *base_from_camera)
+}
+
+/// Robust least squares of the points' distances on the coarse fields, one step for each scale.
+fn polish(
+    problems: &[Problem<'_>],
+    mut base_from_camera: Isometry3<f64>,
+    scales: &[f64],
+) -> Isometry3<f64> {
+    for scale in scales {
+        let pose = base_from_camera.cast::<f32>();
+        let rotation = pose.rotation.to_rotation_matrix();
+        let pivot = pose.translation.vector;
+        let mut sum = NormalEquations::<6>::default();
+        for problem in problems {
+            for point in &problem.arm_points {
+                let turned = rotation * point.coords;
+                let sample = problem.field.sample(&Point3::from(turned + pivot));
+                let weight = geman_mcclure(f64::from(sample.distance_m), *scale);
+                let turn = turned.cross(&sample.gradient);
+                let g = sample.gradient;
+                let jacobian = Vector6::new(g.x, g.y, g.z, turn.x, turn.y, turn.z).cast();
+                sum.add(&jacobian, f64::from(sample.distance_m), weight);
+            }
+        }
+        let Some(step) = sum.solve(1e-3) else { break };
+        let turn = UnitQuaternion::new(step.fixed_rows::<3>(3).into_owned());
+        base_from_camera.rotation = turn * base_from_camera.rotation;
+        base_from_camera.translation.vector += step.fixed_rows::<3>(0);
+    }
+    base_from_camera
+}
+
+fn judge(problems: &[Problem<'_>], base_from_camera: Isometry3<f64>) -> Candidate {
+    let camera_from_base = Transform::<Camera, Base>::from_isometry(base_from_camera.inverse());
+    let (inward, outward) = (base_from_camera.cast::<f32>(), camera_from_base.isometry().cast::<f32>());
+    let (mut distance, mut contradicted) = (0.0, 0.0);
+    for problem in problems {
+        let mut sum = 0.0;
+        for point in &problem.arm_points {
+            let sample = problem.field.sample(&(inward * point));
+            sum += f64::from(sample.distance_m).abs().min(CAP_M);
+        }
+        distance += sum / problem.arm_points.len() as f64;
+        let (mut against, mut judged) = (0.0, 1e-9);
+        for surface in &problem.surface {
+            let p = outward * surface.point;
+            if (outward.rotation * surface.normal).dot(&p.coords) > 0.0 {
+                continue;
+            }
+            match problem.view.evidence(&p) {
+                Evidence::Agrees => judged += 1.0,
+                Evidence::Contradicts => (against, judged) = (against + 1.0, judged + 1.0),
+                // Behind the camera or out of sight, a pose must not hide from judgement for free.
+                Evidence::Unknown => (against, judged) = (against + 0.25, judged + 1.0),
+            }
+        }
+        contradicted += against / judged;
+    }
+    let views = problems.len() as f64;
+    Candidate { camera_from_base, distance_m: distance / views, contradicted: contradicted / views }
+}

@@ -1,0 +1,74 @@
+//! The point of a triangle nearest to a given point.
+
+use nalgebra::{Point3, Vector3};
+
+/// Nearest point of triangle `[a, b, c]` to `p` (Ericson, *Real-Time Collision Detection*, 5.1.5).
+///
+/// Correct for triangles of no area too: the answer is then on one of the edges.
+pub(crate) fn closest_point(p: &Point3<f32>, [a, b, c]: &[Point3<f32>; 3]) -> Point3<f32> {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return *a;
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return *b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * share(d1, d1 - d3);
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return *c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * share(d2, d2 - d6);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+        return b + (c - b) * share(d4 - d3, (d4 - d3) + (d5 - d6));
+    }
+    let sum = va + vb + vc;
+    a + ab * share(vb, sum) + ac * share(vc, sum)
+}
+
+fn share(part: f32, whole: f32) -> f32 {
+    if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+/// Twice the area times the unit normal.
+pub(crate) fn area_normal([a, b, c]: &[Point3<f32>; 3]) -> Vector3<f32> {
+    (b - a).cross(&(c - a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = Point3<f32>> {
+        prop::array::uniform3(-1.0f32..1.0).prop_map(|[x, y, z]| Point3::new(x, y, z))
+    }
+
+    proptest! {
+        #[test]
+        fn no_sampled_point_of_the_triangle_is_nearer(
+            p in point(), triangle in prop::array::uniform3(point()),
+        ) {
+            let nearest = (closest_point(&p, &triangle) - p).norm();
+            let [a, b, c] = triangle;
+            for i in 0..=20 {
+                for j in 0..=(20 - i) {
+                    let (u, v) = (i as f32 / 20.0, j as f32 / 20.0);
+                    let q = a + (b - a) * u + (c - a) * v;
+                    prop_assert!(nearest <= (q - p).norm() + 1e-5);
+                }
+            }
+        }
+    }
+}

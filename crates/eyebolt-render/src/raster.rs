@@ -1,0 +1,195 @@
+//! Triangles into a z-buffer.
+
+use eyebolt_geometry::{Camera, DepthImage, Link, PinholeCamera, Transform};
+use eyebolt_robot::TriangleMesh;
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// A mesh in its link's frame and where that link is.
+#[derive(Clone, Copy, Debug)]
+pub struct PosedMesh<'a> {
+    /// The mesh, link frame, metres.
+    pub mesh: &'a TriangleMesh,
+    /// Pose of the link.
+    pub camera_from_link: Transform<Camera, Link>,
+    /// What [`Raster::link`] says where this mesh is seen.
+    pub link: u8,
+}
+
+/// Depth and link of what each pixel sees of some posed meshes.
+///
+/// The buffers are reused from one drawing to the next.
+#[derive(Clone, Debug)]
+pub struct Raster {
+    width: usize,
+    height: usize,
+    /// Inverse depth, 1/m; 0 = nothing is seen.
+    inverse_depth: Vec<f32>,
+    link: Vec<u8>,
+    /// First and last column and row (exclusive) that anything was drawn to.
+    drawn: [usize; 4],
+    vertices: Vec<Projected>,
+}
+
+/// A vertex in the image: pixels and inverse depth.
+#[derive(Clone, Copy, Debug)]
+struct Projected {
+    u: f32,
+    v: f32,
+    inverse_z: f32,
+}
+
+/// Surfaces nearer than this to the camera's centre are not drawn, metres.
+const NEAR_M: f64 = 0.02;
+
+impl Raster {
+    /// An empty raster for images of `camera`.
+    pub fn new(camera: &PinholeCamera) -> Self {
+        let count = camera.pixel_count();
+        Self {
+            width: camera.width() as usize,
+            height: camera.height() as usize,
+            inverse_depth: vec![0.0; count],
+            link: vec![0; count],
+            drawn: [0; 4],
+            vertices: Vec::new(),
+        }
+    }
+
+    /// Clears the raster and draws `meshes` as `camera` sees them. Both faces of a triangle count.
+    ///
+    /// `camera` must have the size of the one the raster was made for; edges are drawn straight,
+    /// which a lens with distortion bends by less than the triangles are small.
+    pub fn draw(&mut self, camera: &PinholeCamera, meshes: &[PosedMesh<'_>]) {
+        debug_assert_eq!(camera.pixel_count(), self.inverse_depth.len());
+        self.clear();
+        for posed in meshes {
+            self.project(camera, posed);
+            for triangle in &posed.mesh.triangles {
+                let [a, b, c] = triangle.map(|i| self.vertices[i as usize]);
+                if a.inverse_z > 0.0 && b.inverse_z > 0.0 && c.inverse_z > 0.0 {
+                    self.fill([a, b, c], posed.link);
+                }
+            }
+        }
+    }
+
+    fn clear(&mut self) {
+        let [u0, u1, v0, v1] = self.drawn;
+        for v in v0..v1 {
+            let row = v * self.width;
+            self.inverse_depth[row + u0..row + u1].fill(0.0);
+        }
+        self.drawn = [self.width, 0, self.height, 0];
+    }
+
+    fn project(&mut self, camera: &PinholeCamera, posed: &PosedMesh<'_>) {
+        let isometry = posed.camera_from_link.isometry();
+        let rotation: Matrix3<f64> = isometry.rotation.to_rotation_matrix().into_inner();
+        let translation: Vector3<f64> = isometry.translation.vector;
+        self.vertices.clear();
+        self.vertices.extend(posed.mesh.vertices.iter().map(|vertex| {
+            let p = Point3::from(rotation * vertex.coords.cast::<f64>() + translation);
+            let pixel = if p.z > NEAR_M { camera.project(&p) } else { None };
+            match pixel {
+                Some(pixel) => Projected {
+                    u: pixel.x as f32,
+                    v: pixel.y as f32,
+                    inverse_z: (1.0 / p.z) as f32,
+                },
+                None => Projected { u: 0.0, v: 0.0, inverse_z: 0.0 },
+            }
+        }));
+    }
+
+    fn fill(&mut self, [a, b, c]: [Projected; 3], link: u8) {
+        let range = |x: f32, y: f32, z: f32, limit: usize| {
+            let first = x.min(y).min(z).ceil().max(0.0);
+            let last = x.max(y).max(z).floor().min(limit as f32 - 1.0);
+            (first <= last).then_some((first as usize, last as usize))
+        };
+        let Some((u0, u1)) = range(a.u, b.u, c.u, self.width) else { return };
+        let Some((v0, v1)) = range(a.v, b.v, c.v, self.height) else { return };
+        let area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        // Barycentric weights and inverse depth are affine in the pixel.
+        let scale = 1.0 / area;
+        let wb_u = (c.v - a.v) * scale;
+        let wb_v = -(c.u - a.u) * scale;
+        let wc_u = -(b.v - a.v) * scale;
+        let wc_v = (b.u - a.u) * scale;
+        let (db, dc) = (b.inverse_z - a.inverse_z, c.inverse_z - a.inverse_z);
+        let mut hit = false;
+        for v in v0..=v1 {
+            let dv = v as f32 - a.v;
+            let row = v * self.width;
+            for u in u0..=u1 {
+                let du = u as f32 - a.u;
+                let wb = wb_u * du + wb_v * dv;
+                let wc = wc_u * du + wc_v * dv;
+                // A hair of slack, so that no pixel falls between two neighbours.
+                if wb < -1e-5 || wc < -1e-5 || wb + wc > 1.00002 {
+                    continue;
+                }
+                let inverse_z = a.inverse_z + wb * db + wc * dc;
+                let at = row + u;
+                if inverse_z > self.inverse_depth[at] {
+                    self.inverse_depth[at] = inverse_z;
+                    self.link[at] = link;
+                    hit = true;
+                }
+            }
+        }
+        if hit {
+            let [du0, du1, dv0, dv1] = &mut self.drawn;
+            (*du0, *du1) = ((*du0).min(u0), (*du1).max(u1 + 1));
+            (*dv0, *dv1) = ((*dv0).min(v0), (*dv1).max(v1 + 1));
+        }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Depth at row-major pixel `index`, metres; `None` where nothing is seen.
+    pub fn depth_m(&self, index: usize) -> Option<f32> {
+        let inverse = self.inverse_depth[index];
+        (inverse > 0.0).then(|| 1.0 / inverse)
+    }
+
+    /// The link seen at row-major pixel `index`; `None` where nothing is seen.
+    pub fn link(&self, index: usize) -> Option<u8> {
+        (self.inverse_depth[index] > 0.0).then(|| self.link[index])
+    }
+
+    /// Columns and rows that anything was drawn to, ends exclusive.
+    pub fn drawn(&self) -> (std::ops::Range<usize>, std::ops::Range<usize>) {
+        let [u0, u1, v0, v1] = self.drawn;
+        (u0..u1.max(u0), v0..v1.max(v0))
+    }
+
+    /// Row-major pixels where something is seen.
+    pub fn pixels(&self) -> impl Iterator<Item = usize> + '_ {
+        let (columns, rows) = self.drawn();
+        rows.flat_map(move |v| {
+            let row = v * self.width;
+            columns.clone().map(move |u| row + u)
+        })
+        .filter(|at| self.inverse_depth[*at] > 0.0)
+    }
+
+    /// The depth image, 0 where nothing is seen.
+    pub fn to_depth_image(&self) -> DepthImage {
+        let depth = |inverse: &f32| if *inverse > 0.0 { 1.0 / inverse } else { 0.0 };
+        let depth_m = self.inverse_depth.iter().map(depth).collect();
+        DepthImage::new(self.width as u32, self.height as u32, depth_m)
+            .expect("a raster has as many pixels as its camera")
+    }
+}

@@ -1,0 +1,58 @@
+//! What a calibration works on: arm configurations as one camera saw them.
+
+use eyebolt_geometry::{Camera, DepthImage, Mask, PinholeCamera, RayTable, Transform};
+use eyebolt_registration::{ArmModel, Posture, View};
+use eyebolt_robot::JointPositions;
+
+/// Arm configurations, the camera that saw them and the arm.
+#[derive(Clone, Debug)]
+pub struct Session {
+    /// The camera that the depth images are of.
+    pub camera: PinholeCamera,
+    /// Its rays.
+    pub rays: RayTable,
+    /// Turns from the frame of `camera` to the optical frame that answers are for. Only clouds that
+    /// came without a camera make these two differ.
+    pub optical_from_camera: Transform<Camera, Camera>,
+    /// Shapes of the arm's links.
+    pub arm: ArmModel,
+    /// The configurations, in the order of the recording.
+    pub configurations: Vec<Configuration>,
+}
+
+/// One arm configuration.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    /// The frame's name in the recording.
+    pub name: String,
+    /// What the camera saw.
+    pub depth: DepthImage,
+    /// The whole arm's pixels, where the recording has them.
+    pub mask: Option<Mask>,
+    /// Joint positions.
+    pub joints: JointPositions,
+    /// Where they put the links.
+    pub posture: Posture,
+}
+
+impl Session {
+    /// The views of all configurations.
+    pub fn views(&self) -> Vec<View<'_>> {
+        self.configurations.iter().map(|c| self.view(c)).collect()
+    }
+
+    /// One configuration as registration sees it.
+    pub fn view<'a>(&'a self, configuration: &'a Configuration) -> View<'a> {
+        View {
+            camera: &self.camera,
+            depth: &configuration.depth,
+            mask: configuration.mask.as_ref(),
+            posture: &configuration.posture,
+        }
+    }
+
+    /// Whether the recording says which pixels are the arm.
+    pub fn has_masks(&self) -> bool {
+        self.configurations.iter().all(|c| c.mask.is_some())
+    }
+}
