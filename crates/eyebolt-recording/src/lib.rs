@@ -1,1 +1,49 @@
-//! See the crate's description in Cargo.toml.
+//! Recordings of depth and joint positions, read from what people have.
+//!
+//! A recording is a folder of files with a `recording.toml` that says which are what:
+//!
+//! ```toml
+//! [camera]
+//! info = "camera_info.yaml"          # of the depth, as ROS prints it
+//!
+//! [frames]                           # {} is the frame's number or name
+//! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy"
+//! depth_unit = "m"                   # "m" or "mm"
+//! # cloud_frame = "optical"          # clouds only; or "body" (x forward, y left, z up)
+//! color = "color_{}.png"             # optional
+//! mask = "mask_{}.png"               # optional, the whole arm
+//! joints = "joint_states_{}.npy"     # radians
+//! joint_names = ["joint_1", "joint_2"]
+//!
+//! [robot]                            # optional
+//! urdf = "robot.urdf"
+//! base = "base_link"
+//! end_effector = "hand"
+//! ```
+//!
+//! Paths are relative to the file. [`Folder`] reads it; everything returned is in metres, radians
+//! and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors
+//! that name the file, the field and what to do.
+
+mod camera_info;
+mod cloud;
+mod color;
+mod depth;
+mod error;
+mod file;
+mod folder;
+mod frame;
+mod joints;
+mod manifest;
+mod mask;
+mod npy;
+mod pattern;
+mod png_image;
+mod unit_check;
+
+pub use camera_info::CameraInfo;
+pub use color::ColorImage;
+pub use error::RecordingError;
+pub use folder::Folder;
+pub use frame::{Frame, Range};
+pub use manifest::RobotSection;

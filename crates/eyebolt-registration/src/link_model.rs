@@ -12,7 +12,7 @@ pub struct LinkModel {
     pub field: DistanceField,
     /// Points spread evenly over the outside.
     pub surface: Vec<SurfacePoint>,
-    /// The mesh, simplified to about two millimetres, for drawing.
+    /// The mesh, simplified to about four millimetres, for drawing.
     pub mesh: TriangleMesh,
 }
 
@@ -22,7 +22,7 @@ const VOXEL_M: f32 = 0.005;
 /// How far the distance field reaches beyond the link.
 const MARGIN_M: f32 = 0.06;
 /// Size of the cells that vertices are merged in for drawing.
-const SIMPLIFY_M: f32 = 0.002;
+const SIMPLIFY_M: f32 = 0.004;
 const SURFACE_POINTS: usize = 800;
 
 impl LinkModel {

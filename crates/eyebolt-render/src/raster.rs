@@ -1,8 +1,8 @@
 //! Triangles into a z-buffer.
 
-use eyebolt_geometry::{Camera, DepthImage, Link, PinholeCamera, Transform};
+use eyebolt_geometry::{Camera, DepthImage, Distortion, Link, PinholeCamera, Transform};
 use eyebolt_robot::TriangleMesh;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// A mesh in its link's frame and where that link is.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,27 @@ struct Projected {
     u: f32,
     v: f32,
     inverse_z: f32,
+}
+
+impl Projected {
+    /// Behind the camera, or where its lens has no image.
+    const HIDDEN: Self = Self { u: 0.0, v: 0.0, inverse_z: 0.0 };
+}
+
+/// First and last of `limit` integers between the least and the greatest of `corners`, if any.
+///
+/// Most triangles are smaller than a pixel: this is the hottest code of all, and conversions cost
+/// less than calls of `ceil` and `floor`.
+fn pixels_between([a, b, c]: [f32; 3], limit: usize) -> Option<(usize, usize)> {
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    if !(high >= 0.0 && low < limit as f32) {
+        return None;
+    }
+    let low = low.max(0.0);
+    let truncated = low as usize;
+    let first = truncated + usize::from((truncated as f32) < low);
+    let last = (high as usize).min(limit - 1);
+    (first <= last).then_some((first, last))
 }
 
 /// Surfaces nearer than this to the camera's centre are not drawn, metres.
@@ -86,29 +107,31 @@ impl Raster {
         let isometry = posed.camera_from_link.isometry();
         let rotation: Matrix3<f64> = isometry.rotation.to_rotation_matrix().into_inner();
         let translation: Vector3<f64> = isometry.translation.vector;
+        let straight = *camera.distortion() == Distortion::None;
+        let [fx, fy, cx, cy] = [camera.fx(), camera.fy(), camera.cx(), camera.cy()];
         self.vertices.clear();
         self.vertices.extend(posed.mesh.vertices.iter().map(|vertex| {
-            let p = Point3::from(rotation * vertex.coords.cast::<f64>() + translation);
-            let pixel = if p.z > NEAR_M { camera.project(&p) } else { None };
-            match pixel {
-                Some(pixel) => Projected {
-                    u: pixel.x as f32,
-                    v: pixel.y as f32,
-                    inverse_z: (1.0 / p.z) as f32,
-                },
-                None => Projected { u: 0.0, v: 0.0, inverse_z: 0.0 },
+            let p = rotation * vertex.coords.cast::<f64>() + translation;
+            if p.z <= NEAR_M {
+                return Projected::HIDDEN;
             }
+            let inverse_z = 1.0 / p.z;
+            let pixel = if straight {
+                Some(Point2::new(fx * p.x * inverse_z + cx, fy * p.y * inverse_z + cy))
+            } else {
+                camera.project(&Point3::from(p))
+            };
+            pixel.map_or(Projected::HIDDEN, |pixel| Projected {
+                u: pixel.x as f32,
+                v: pixel.y as f32,
+                inverse_z: inverse_z as f32,
+            })
         }));
     }
 
     fn fill(&mut self, [a, b, c]: [Projected; 3], link: u8) {
-        let range = |x: f32, y: f32, z: f32, limit: usize| {
-            let first = x.min(y).min(z).ceil().max(0.0);
-            let last = x.max(y).max(z).floor().min(limit as f32 - 1.0);
-            (first <= last).then_some((first as usize, last as usize))
-        };
-        let Some((u0, u1)) = range(a.u, b.u, c.u, self.width) else { return };
-        let Some((v0, v1)) = range(a.v, b.v, c.v, self.height) else { return };
+        let Some((u0, u1)) = pixels_between([a.u, b.u, c.u], self.width) else { return };
+        let Some((v0, v1)) = pixels_between([a.v, b.v, c.v], self.height) else { return };
         let area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
         if area == 0.0 || !area.is_finite() {
             return;
@@ -120,32 +143,27 @@ impl Raster {
         let wc_u = -(b.v - a.v) * scale;
         let wc_v = (b.u - a.u) * scale;
         let (db, dc) = (b.inverse_z - a.inverse_z, c.inverse_z - a.inverse_z);
-        let mut hit = false;
         for v in v0..=v1 {
             let dv = v as f32 - a.v;
             let row = v * self.width;
-            for u in u0..=u1 {
-                let du = u as f32 - a.u;
+            let depths = &mut self.inverse_depth[row + u0..=row + u1];
+            let links = &mut self.link[row + u0..=row + u1];
+            for (u, (depth, seen)) in depths.iter_mut().zip(links).enumerate() {
+                let du = (u0 + u) as f32 - a.u;
                 let wb = wb_u * du + wb_v * dv;
                 let wc = wc_u * du + wc_v * dv;
-                // A hair of slack, so that no pixel falls between two neighbours.
-                if wb < -1e-5 || wc < -1e-5 || wb + wc > 1.00002 {
-                    continue;
-                }
                 let inverse_z = a.inverse_z + wb * db + wc * dc;
-                let at = row + u;
-                if inverse_z > self.inverse_depth[at] {
-                    self.inverse_depth[at] = inverse_z;
-                    self.link[at] = link;
-                    hit = true;
+                // A hair of slack, so that no pixel falls between two neighbours.
+                let inside = wb >= -1e-5 && wc >= -1e-5 && wb + wc <= 1.00002;
+                if inside && inverse_z > *depth {
+                    *depth = inverse_z;
+                    *seen = link;
                 }
             }
         }
-        if hit {
-            let [du0, du1, dv0, dv1] = &mut self.drawn;
-            (*du0, *du1) = ((*du0).min(u0), (*du1).max(u1 + 1));
-            (*dv0, *dv1) = ((*dv0).min(v0), (*dv1).max(v1 + 1));
-        }
+        let [du0, du1, dv0, dv1] = &mut self.drawn;
+        (*du0, *du1) = ((*du0).min(u0), (*du1).max(u1 + 1));
+        (*dv0, *dv1) = ((*dv0).min(v0), (*dv1).max(v1 + 1));
     }
 
     /// Pixels in a row.

@@ -1,5 +1,6 @@
 //! The stages of eyebolt.
 
+pub mod calibrate;
 pub mod label;
 pub mod pose;
 pub mod record;

@@ -8,12 +8,12 @@ use eyebolt_render::Raster;
 use rayon::prelude::*;
 
 /// Points on surfaces that a configuration contributes.
-const POINTS: usize = 2500;
+const POINTS: usize = 1200;
 
 /// Rounds from a start that may be centimetres off.
 pub const FROM_AFAR: &[RefineOptions] = &[
-    RefineOptions { iterations: 6, surface_scale_m: 0.06, outline_scale_px: 20.0 },
-    RefineOptions { iterations: 8, surface_scale_m: 0.03, outline_scale_px: 8.0 },
+    RefineOptions { iterations: 4, surface_scale_m: 0.06, outline_scale_px: 20.0 },
+    RefineOptions { iterations: 5, surface_scale_m: 0.03, outline_scale_px: 8.0 },
     RefineOptions { iterations: 15, surface_scale_m: 0.02, outline_scale_px: 4.0 },
 ];
 

@@ -1,0 +1,85 @@
+//! Point clouds in NPY.
+
+use crate::depth::{scaled, shape_text};
+use crate::error::RecordingError;
+use crate::manifest::{CloudFrame, Unit};
+use crate::npy::{Dtype, Npy};
+use crate::unit_check::check_unit;
+use eyebolt_geometry::Cloud;
+use nalgebra::Point3;
+use std::path::Path;
+
+const FIELD: &str = "cloud";
+
+/// Reads a cloud stored in `unit` and `frame`; the points returned are in the optical frame.
+pub(crate) fn read_cloud(
+    path: &Path,
+    unit: Unit,
+    frame: CloudFrame,
+) -> Result<Cloud, RecordingError> {
+    let npy = Npy::read(path, FIELD, &[Dtype::Float32, Dtype::Float64])?;
+    let grid = grid(path, npy.shape())?;
+    let values = scaled(npy.values(), unit);
+    let (triples, _) = values.as_chunks::<3>();
+    let points: Vec<_> = triples.iter().map(|xyz| optical(*xyz, frame)).collect();
+    check_unit(path, FIELD, unit, points.iter().map(|p| p.coords.norm()))?;
+    match grid {
+        None => Ok(Cloud::new(points)),
+        Some((width, height)) => Cloud::organised(width, height, points).map_err(|error| {
+            RecordingError::invalid(path, FIELD, error.to_string(), "Store the whole cloud")
+        }),
+    }
+}
+
+/// Width and height where the shape is an image's.
+fn grid(path: &Path, shape: &[usize]) -> Result<Option<(u32, u32)>, RecordingError> {
+    let size = |axis: usize| u32::try_from(axis).ok();
+    match *shape {
+        [_, 3] | [1, _, 3] => Ok(None),
+        [height, width, 3] if size(width).is_some() && size(height).is_some() => {
+            Ok(size(width).zip(size(height)))
+        }
+        _ => Err(RecordingError::invalid(
+            path,
+            FIELD,
+            format!("the array is {}", shape_text(shape)),
+            "Store x, y, z as rows x columns x 3 (organised), or as points x 3",
+        )),
+    }
+}
+
+/// The point in the optical frame; NaN where there is none.
+fn optical([x, y, z]: [f32; 3], frame: CloudFrame) -> Point3<f32> {
+    let there = x.is_finite() && y.is_finite() && z.is_finite() && [x, y, z] != [0.0; 3];
+    match frame {
+        _ if !there => Point3::new(f32::NAN, f32::NAN, f32::NAN),
+        CloudFrame::Optical => Point3::new(x, y, z),
+        // REP 103: x forward, y left, z up becomes x right, y down, z forward.
+        CloudFrame::Body => Point3::new(-y, -z, x),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eyebolt_geometry::optical_from_body;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn body_turns_as_the_rotation_says(x in -9.0_f32..9.0, y in -9.0_f32..9.0, z in 0.1_f32..9.0) {
+            let turned = optical_from_body() * Point3::new(x, y, z).cast::<f64>();
+            let point = optical([x, y, z], CloudFrame::Body).cast::<f64>();
+            prop_assert!((turned - point).norm() < 1e-12);
+        }
+
+        #[test]
+        fn a_broken_coordinate_breaks_the_point(axis in 0_usize..3, infinite in any::<bool>()) {
+            let mut xyz = [1.0_f32; 3];
+            xyz[axis] = if infinite { f32::INFINITY } else { f32::NAN };
+            for frame in [CloudFrame::Body, CloudFrame::Optical] {
+                prop_assert!(optical(xyz, frame).iter().all(|c| c.is_nan()));
+            }
+        }
+    }
+}

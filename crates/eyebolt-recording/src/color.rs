@@ -1,0 +1,37 @@
+//! Colour pictures in PNG, for people to look at.
+
+use crate::error::RecordingError;
+use crate::png_image::{Expected, PngImage};
+use png::ColorType;
+use std::path::Path;
+
+/// An 8-bit RGB picture, row by row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColorImage {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Number of rows.
+    pub height: u32,
+    /// `width * height` pixels of `[red, green, blue]`.
+    pub rgb: Vec<[u8; 3]>,
+}
+
+/// Reads a picture, grey ones too, of the size of the range image where that is known.
+pub(crate) fn read_color(
+    path: &Path,
+    range: Option<Expected<'_>>,
+) -> Result<ColorImage, RecordingError> {
+    let image = PngImage::read(path, "color", range, true)?;
+    let rgb = match image.color {
+        ColorType::Rgb => image.data.as_chunks::<3>().0.to_vec(),
+        ColorType::Rgba => {
+            image.data.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
+        }
+        ColorType::GrayscaleAlpha => {
+            image.data.as_chunks::<2>().0.iter().map(|[v, _]| [*v; 3]).collect()
+        }
+        // Palettes have become RGB.
+        ColorType::Grayscale | ColorType::Indexed => image.data.iter().map(|v| [*v; 3]).collect(),
+    };
+    Ok(ColorImage { width: image.width, height: image.height, rgb })
+}

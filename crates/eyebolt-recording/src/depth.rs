@@ -1,0 +1,91 @@
+//! Depth images in NPY and PNG.
+
+use crate::error::RecordingError;
+use crate::manifest::Unit;
+use crate::npy::{Dtype, Npy};
+use crate::png_image::{Expected, PngImage};
+use crate::unit_check::check_unit;
+use eyebolt_geometry::DepthImage;
+use png::{BitDepth, ColorType};
+use std::path::Path;
+
+const FIELD: &str = "depth";
+
+/// Reads a depth image of the size of `camera`, stored in `unit`.
+pub(crate) fn read_depth(
+    path: &Path,
+    extension: &str,
+    unit: Unit,
+    camera: Expected<'_>,
+) -> Result<DepthImage, RecordingError> {
+    let depth_m = match extension {
+        "png" => from_png(path, unit, camera)?,
+        _ => from_npy(path, unit, camera)?,
+    };
+    check_unit(path, FIELD, unit, depth_m.iter().copied())?;
+    let (width, height, _) = camera;
+    DepthImage::new(width, height, depth_m).map_err(|error| {
+        RecordingError::invalid(path, FIELD, error.to_string(), "Store the whole image")
+    })
+}
+
+fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {
+    let npy = Npy::read(path, FIELD, &[Dtype::Float32, Dtype::Float64, Dtype::Uint16])?;
+    let (width, height, what) = camera;
+    if npy.shape() != [height as usize, width as usize] {
+        return Err(RecordingError::invalid(
+            path,
+            FIELD,
+            format!(
+                "the array is {} (rows x columns), but {what} is {height} x {width}",
+                shape_text(npy.shape())
+            ),
+            "Both must be of the same camera and size",
+        ));
+    }
+    if npy.dtype() == Dtype::Uint16 {
+        check_integers(path, unit)?;
+    }
+    Ok(scaled(npy.values(), unit))
+}
+
+fn from_png(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {
+    check_integers(path, unit)?;
+    let image = PngImage::read(path, FIELD, Some(camera), false)?;
+    if (image.color, image.depth) != (ColorType::Grayscale, BitDepth::Sixteen) {
+        let problem = format!("the PNG is {}, not 16-bit grey", image.kind());
+        let remedy = "Store depth as 16-bit grey PNG in millimetres; a picture of it has lost it";
+        return Err(RecordingError::invalid(path, FIELD, problem, remedy));
+    }
+    let (samples, _) = image.data.as_chunks::<2>();
+    let values = samples.iter().map(|bytes| f32::from(u16::from_be_bytes(*bytes))).collect();
+    Ok(scaled(values, unit))
+}
+
+/// Whole metres are no depth.
+fn check_integers(path: &Path, unit: Unit) -> Result<(), RecordingError> {
+    match unit {
+        Unit::Millimetres => Ok(()),
+        Unit::Metres => Err(RecordingError::invalid(
+            path,
+            FIELD,
+            "the depths are 16-bit integers, which cannot be metres",
+            "Set depth_unit = \"mm\" in recording.toml",
+        )),
+    }
+}
+
+/// `values` in metres.
+pub(crate) fn scaled(mut values: Vec<f32>, unit: Unit) -> Vec<f32> {
+    if unit != Unit::Metres {
+        let factor = unit.metres();
+        values.iter_mut().for_each(|value| *value *= factor);
+    }
+    values
+}
+
+/// Lengths of axes as in `540 x 960`.
+pub(crate) fn shape_text(shape: &[usize]) -> String {
+    let axes: Vec<_> = shape.iter().map(ToString::to_string).collect();
+    if axes.is_empty() { "a single number".to_owned() } else { axes.join(" x ") }
+}

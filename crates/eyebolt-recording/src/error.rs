@@ -1,0 +1,69 @@
+//! What can be wrong with a recording.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a recording, or a frame of it, cannot be read. The text names file, field and remedy.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordingError {
+    /// The operating system would not give the file.
+    #[error("{path}: cannot read {field}: {cause}. {remedy}", path = path.display())]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the file is to the recording.
+        field: String,
+        /// What to do about it.
+        remedy: String,
+        /// What the operating system said. Part of the text, so no `source` of the error.
+        cause: io::Error,
+    },
+    /// The file is there and says something that cannot be right.
+    #[error("{path}: {field}: {problem}. {remedy}", path = path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// The field, or the part of the file.
+        field: String,
+        /// What was found there.
+        problem: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// There is no frame of that index.
+    #[error("{path}: frame index {index} does not exist. The recording has {count} frames, counted from 0", path = path.display())]
+    NoSuchFrame {
+        /// The recording.
+        path: PathBuf,
+        /// The index asked for.
+        index: usize,
+        /// How many frames there are.
+        count: usize,
+    },
+}
+
+impl RecordingError {
+    pub(crate) fn invalid(
+        path: &Path,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Invalid {
+            path: path.to_path_buf(),
+            field: field.into(),
+            problem: problem.into(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// The file or folder that the error is about.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Read { path, .. }
+            | Self::Invalid { path, .. }
+            | Self::NoSuchFrame { path, .. } => path,
+        }
+    }
+}

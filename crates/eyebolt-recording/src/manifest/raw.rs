@@ -1,0 +1,40 @@
+//! `recording.toml` as it is spelled.
+
+use serde::Deserialize;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Raw {
+    #[serde(default)]
+    pub(super) camera: RawCamera,
+    pub(super) frames: RawFrames,
+    #[serde(default)]
+    pub(super) robot: RawRobot,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCamera {
+    pub(super) info: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFrames {
+    pub(super) depth: Option<String>,
+    pub(super) cloud: Option<String>,
+    pub(super) depth_unit: Option<String>,
+    pub(super) cloud_frame: Option<String>,
+    pub(super) color: Option<String>,
+    pub(super) mask: Option<String>,
+    pub(super) joints: Option<String>,
+    pub(super) joint_names: Option<Vec<String>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRobot {
+    pub(super) urdf: Option<String>,
+    pub(super) base: Option<String>,
+    pub(super) end_effector: Option<String>,
+}

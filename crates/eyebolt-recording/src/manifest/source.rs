@@ -1,0 +1,95 @@
+//! From the spelled fields to their meaning.
+
+use super::raw::RawFrames;
+use super::{CloudFrame, RangeKind, Unit};
+use crate::error::RecordingError;
+use crate::pattern::Pattern;
+use std::path::Path;
+
+/// Where the description came from, for messages and for paths relative to it.
+pub(super) struct Source<'a> {
+    pub(super) path: &'a Path,
+    pub(super) root: &'a Path,
+}
+
+impl Source<'_> {
+    fn invalid(&self, field: &str, problem: impl Into<String>, remedy: &str) -> RecordingError {
+        RecordingError::invalid(self.path, field, problem, remedy)
+    }
+
+    pub(super) fn missing(&self, field: &str, what: &str) -> RecordingError {
+        self.invalid(field, "the key is missing", &format!("Add it: {what}"))
+    }
+
+    pub(super) fn pattern(
+        &self,
+        key: &str,
+        text: Option<&str>,
+        extensions: &[&str],
+    ) -> Result<Option<Pattern>, RecordingError> {
+        let field = format!("frames.{key}");
+        text.map(|t| Pattern::parse(self.path, self.root, &field, t, extensions)).transpose()
+    }
+
+    pub(super) fn range(&self, frames: &RawFrames) -> Result<(RangeKind, Pattern), RecordingError> {
+        let depth = self.pattern("depth", frames.depth.as_deref(), &["npy", "png"])?;
+        let cloud = self.pattern("cloud", frames.cloud.as_deref(), &["npy"])?;
+        match (depth, cloud) {
+            (Some(_), Some(_)) => {
+                Err(self.invalid("frames", "both depth and cloud are given", "Keep one of them"))
+            }
+            (None, None) => Err(self.invalid(
+                "frames",
+                "neither depth nor cloud is given",
+                "Name the files with one of them, as in depth = \"depth_{}.npy\"",
+            )),
+            (Some(_), None) if frames.cloud_frame.is_some() => {
+                let remedy = "Remove it: depth is always in the optical frame";
+                Err(self.invalid("frames.cloud_frame", "the recording has no clouds", remedy))
+            }
+            (Some(depth), None) => Ok((RangeKind::Depth, depth)),
+            (None, Some(cloud)) => Ok((RangeKind::Cloud(self.cloud_frame(frames)?), cloud)),
+        }
+    }
+
+    fn cloud_frame(&self, frames: &RawFrames) -> Result<CloudFrame, RecordingError> {
+        let field = "frames.cloud_frame";
+        let two = "\"optical\" (x right, y down, z forward) or \"body\" (x forward, y left, z up)";
+        match frames.cloud_frame.as_deref() {
+            Some("optical") => Ok(CloudFrame::Optical),
+            Some("body") => Ok(CloudFrame::Body),
+            Some(other) => {
+                Err(self.invalid(field, format!("found \"{other}\""), &format!("Write {two}")))
+            }
+            None => Err(self.missing(field, two)),
+        }
+    }
+
+    pub(super) fn unit(&self, frames: &RawFrames) -> Result<Unit, RecordingError> {
+        let field = "frames.depth_unit";
+        let two = "\"m\" (metres) or \"mm\" (millimetres)";
+        match frames.depth_unit.as_deref() {
+            Some("m") => Ok(Unit::Metres),
+            Some("mm") => Ok(Unit::Millimetres),
+            Some(other) => {
+                Err(self.invalid(field, format!("found \"{other}\""), &format!("Write {two}")))
+            }
+            None => Err(self.missing(field, &format!("{two}; the unit is never guessed"))),
+        }
+    }
+
+    pub(super) fn joint_names(&self, frames: &RawFrames) -> Result<Vec<String>, RecordingError> {
+        let field = "frames.joint_names";
+        let Some(names) = frames.joint_names.as_ref().filter(|names| !names.is_empty()) else {
+            let what = "NPY files carry no names, so list the joints in the order of the numbers";
+            return Err(self.missing(field, what));
+        };
+        for (i, name) in names.iter().enumerate() {
+            if names.iter().take(i).any(|earlier| earlier == name) {
+                let problem = format!("\"{name}\" is listed twice");
+                return Err(self.invalid(field, problem, "List every joint once"));
+            }
+        }
+        Ok(names.clone())
+    }
+}

@@ -1,0 +1,8 @@
+//! Recordings in folders, written by the tests and read back.
+
+mod camera_info;
+mod damaged;
+mod errors;
+mod laws;
+mod real;
+mod sample;

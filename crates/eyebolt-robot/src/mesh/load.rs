@@ -1,0 +1,135 @@
+//! Bodies into meshes.
+
+use super::{
+    Fault, MeshError, RawMesh, TriangleMesh, check_count, dae, obj, primitives, stl, weld,
+};
+use crate::robot::{Body, Link, Shape};
+use nalgebra::Point3;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Longest mesh file accepted, bytes.
+pub const MAX_MESH_BYTES: u64 = 512 << 20;
+
+/// Which bodies of a link to take where it has both kinds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Prefer {
+    /// What the link looks like, as a depth camera sees it.
+    #[default]
+    Visual,
+    /// The collision bodies: coarser, sometimes padded.
+    Collision,
+}
+
+impl Prefer {
+    /// The bodies to take: those preferred, else the others.
+    pub(crate) fn bodies(self, link: &Link) -> &[Body] {
+        let (first, second) = match self {
+            Self::Visual => (&link.visuals, &link.collisions),
+            Self::Collision => (&link.collisions, &link.visuals),
+        };
+        if first.is_empty() { second } else { first }
+    }
+}
+
+/// Mesh of a body, metres, in its link's frame.
+///
+/// STL, OBJ and DAE are read; of a DAE, its unit and the transforms of its scene are applied and
+/// its `up_axis` is not, as in RViz. Round shapes become facets that lie at most 0.2 mm inside.
+///
+/// # Errors
+/// See [`MeshError`].
+pub fn load_body(body: &Body) -> Result<TriangleMesh, MeshError> {
+    let (raw, scale, name) = match &body.shape {
+        Shape::Mesh { path, scale } => {
+            let name = path.display().to_string();
+            let (format, bytes) = read_mesh_file(path)?;
+            (parse(format, &bytes).map_err(|fault| fault.named(name.clone()))?, *scale, name)
+        }
+        shape => {
+            let name = primitives::name(shape).to_owned();
+            let raw = primitives::tessellate(shape).map_err(|fault| fault.named(name.clone()))?;
+            (raw, [1.0; 3], name)
+        }
+    };
+    let [x, y, z] = scale;
+    let link_from_body = body.link_from_body;
+    let placed = |p: Point3<f64>| link_from_body.point(&Point3::new(x * p.x, y * p.y, z * p.z));
+    let mirrored = x * y * z < 0.0;
+    let mesh = weld::weld(&raw, mirrored, placed).map_err(|fault| fault.named(name.clone()))?;
+    if mesh.triangles.is_empty() {
+        return Err(MeshError::Empty { name });
+    }
+    Ok(mesh)
+}
+
+/// Mesh of all bodies of a link together, metres, in the link's frame; `None` if it has no body.
+///
+/// # Errors
+/// See [`MeshError`].
+pub fn link_mesh(link: &Link, prefer: Prefer) -> Result<Option<TriangleMesh>, MeshError> {
+    let mut whole: Option<TriangleMesh> = None;
+    for body in prefer.bodies(link) {
+        let mesh = load_body(body)?;
+        match &mut whole {
+            None => whole = Some(mesh),
+            Some(whole) => {
+                let count = whole.triangles.len() + mesh.triangles.len();
+                check_count(count)
+                    .and_then(|()| whole.append(&mesh).ok_or(Fault::TooManyTriangles))
+                    .map_err(|fault| fault.named(format!("link `{}`", link.name)))?;
+            }
+        }
+    }
+    Ok(whole)
+}
+
+/// How a mesh file is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Stl,
+    Obj,
+    Dae,
+}
+
+impl Format {
+    /// By the end of the name.
+    fn of(path: &Path) -> Result<Self, MeshError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match extension.as_str() {
+            "stl" | "stla" | "stlb" => Ok(Self::Stl),
+            "obj" => Ok(Self::Obj),
+            "dae" => Ok(Self::Dae),
+            _ => Err(MeshError::UnsupportedFormat { path: path.to_owned(), extension }),
+        }
+    }
+}
+
+/// Format and whole content of a mesh file.
+pub(crate) fn read_mesh_file(path: &Path) -> Result<(Format, Vec<u8>), MeshError> {
+    let format = Format::of(path)?;
+    let failed = |source| MeshError::Read { path: path.to_owned(), source };
+    let file = File::open(path).map_err(failed)?;
+    let bytes = file.metadata().map_err(failed)?.len();
+    let too_large =
+        |bytes| MeshError::TooLarge { path: path.to_owned(), bytes, limit: MAX_MESH_BYTES };
+    if bytes > MAX_MESH_BYTES {
+        return Err(too_large(bytes));
+    }
+    let mut content = Vec::with_capacity(usize::try_from(bytes).unwrap_or(0));
+    // The file may have grown, or be none whose length is known.
+    file.take(MAX_MESH_BYTES + 1).read_to_end(&mut content).map_err(failed)?;
+    if content.len() as u64 > MAX_MESH_BYTES {
+        return Err(too_large(content.len() as u64));
+    }
+    Ok((format, content))
+}
+
+fn parse(format: Format, bytes: &[u8]) -> Result<RawMesh, Fault> {
+    match format {
+        Format::Stl => stl::read(bytes),
+        Format::Obj => obj::read(bytes),
+        Format::Dae => dae::read(bytes),
+    }
+}

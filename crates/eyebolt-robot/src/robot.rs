@@ -1,0 +1,207 @@
+//! The kinematic tree of a robot.
+
+use crate::error::RobotError;
+use eyebolt_geometry::{Transform, frame};
+use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
+use std::path::PathBuf;
+
+/// Links and joints of a robot, as its URDF describes them. Holds no meshes, only where they are.
+#[derive(Clone, Debug)]
+pub struct Robot {
+    /// Name given in the URDF, empty where it gives none.
+    pub name: String,
+    /// All links; the root is first and every link comes after its parent.
+    pub links: Vec<Link>,
+    /// All joints, in the order of their child links.
+    pub joints: Vec<Joint>,
+    /// Where the description came from, for messages.
+    pub(crate) source: String,
+    pub(crate) urdf_hash: String,
+}
+
+/// A rigid part of the robot.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Unique name.
+    pub name: String,
+    /// Index of the parent link in [`Robot::links`] and of the joint between the two in
+    /// [`Robot::joints`]; `None` for the root.
+    pub parent: Option<(usize, usize)>,
+    /// What the link looks like.
+    pub visuals: Vec<Body>,
+    /// What the link may bump into things with: coarser, sometimes padded.
+    pub collisions: Vec<Body>,
+}
+
+/// A shape fixed to a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Pose of the shape in the link's frame.
+    pub link_from_body: Transform<frame::Link, frame::Link>,
+    /// The shape, in its own frame.
+    pub shape: Shape,
+}
+
+/// A shape in its own frame, metres. Round shapes run along z; all but meshes are centred.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A mesh file, every coordinate times `scale`. Nothing of it has been read yet.
+    Mesh {
+        /// The file, found by the rules of [`crate::PackageRoots`].
+        path: PathBuf,
+        /// Factors along x, y and z, never zero; negative ones mirror.
+        scale: [f64; 3],
+    },
+    /// A box.
+    Box {
+        /// Full extents along x, y and z.
+        size: [f64; 3],
+    },
+    /// A cylinder.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Full length along z.
+        length: f64,
+    },
+    /// A cylinder with half-spheres as ends.
+    Capsule {
+        /// Radius of the cylinder and of its ends.
+        radius: f64,
+        /// Length of the cylinder along z, without its ends.
+        length: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Radius.
+        radius: f64,
+    },
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// Not at all.
+    Fixed,
+    /// Turns about its axis within limits, radians.
+    Revolute,
+    /// Turns about its axis without limits, radians.
+    Continuous,
+    /// Slides along its axis, metres.
+    Prismatic,
+}
+
+/// The connection of a link to its parent.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Unique name.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Index of the parent link.
+    pub parent: usize,
+    /// Index of the child link.
+    pub child: usize,
+    /// Pose of the child link in the parent link at position 0.
+    pub parent_from_child_at_zero: Transform<frame::Link, frame::Link>,
+    /// Axis in the child's frame.
+    pub axis: Unit<Vector3<f64>>,
+    /// Limits of the position; `None` where the URDF gives none or the joint is continuous.
+    pub limits: Option<JointLimits>,
+    /// The joint that this one follows, if any.
+    pub mimic: Option<Mimic>,
+}
+
+/// Least and greatest position of a joint, radians or metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLimits {
+    /// Least position.
+    pub lower: f64,
+    /// Greatest position, not below `lower`.
+    pub upper: f64,
+}
+
+/// A joint that follows another: `position = multiplier * other + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mimic {
+    /// Index of the joint that is followed, which may follow another itself.
+    pub joint: usize,
+    /// Factor.
+    pub multiplier: f64,
+    /// Added after the factor, radians or metres.
+    pub offset: f64,
+}
+
+impl Robot {
+    /// Index of the link called `name`.
+    pub fn link_index(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|link| link.name == name)
+    }
+
+    /// Index of the joint called `name`.
+    pub fn joint_index(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// BLAKE3 hash of the URDF text, as 64 hexadecimal digits.
+    pub fn urdf_hash(&self) -> &str {
+        &self.urdf_hash
+    }
+
+    /// The arm between two links; `None` lets it be guessed.
+    ///
+    /// The guessed base is the first link with geometry on the way down from the root through fixed
+    /// joints. The guessed end-effector is the first link with geometry after the last joint of the
+    /// longest chain, or, where a gripper's joints follow, the link that carries them.
+    ///
+    /// # Errors
+    /// A link that does not exist, an end-effector that is not below the base through at least one
+    /// moving joint, or a guess with more than one answer: the error lists the candidates.
+    pub fn arm(
+        &self,
+        base: Option<&str>,
+        end_effector: Option<&str>,
+    ) -> Result<crate::Arm, RobotError> {
+        crate::Arm::new(self.clone(), base, end_effector)
+    }
+
+    /// The links that joints of any kind carry directly under `link`, with their joints.
+    pub(crate) fn children(&self, link: usize) -> impl Iterator<Item = &Joint> {
+        self.joints.iter().filter(move |joint| joint.parent == link)
+    }
+
+    pub(crate) fn link_names(&self) -> Vec<String> {
+        self.links.iter().map(|link| link.name.clone()).collect()
+    }
+}
+
+impl Link {
+    /// Whether the link has any shape at all.
+    pub fn has_geometry(&self) -> bool {
+        !self.visuals.is_empty() || !self.collisions.is_empty()
+    }
+}
+
+impl Joint {
+    /// Whether the joint has a position.
+    pub fn moves(&self) -> bool {
+        self.kind != JointKind::Fixed
+    }
+
+    /// Pose of the child link in the parent link at `position` (radians or metres; ignored by
+    /// fixed joints).
+    pub fn parent_from_child(&self, position: f64) -> Transform<frame::Link, frame::Link> {
+        let motion = match self.kind {
+            JointKind::Fixed => return self.parent_from_child_at_zero,
+            JointKind::Revolute | JointKind::Continuous => nalgebra::Isometry3::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::from_axis_angle(&self.axis, position),
+            ),
+            JointKind::Prismatic => nalgebra::Isometry3::from_parts(
+                Translation3::from(self.axis.into_inner() * position),
+                UnitQuaternion::identity(),
+            ),
+        };
+        self.parent_from_child_at_zero * Transform::from_isometry(motion)
+    }
+}

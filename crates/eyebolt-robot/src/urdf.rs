@@ -1,0 +1,286 @@
+//! URDF text into links and joints, not yet put in order.
+//!
+//! Format: <http://wiki.ros.org/urdf/XML>, with `quat_xyzw` and `capsule` of later versions.
+
+use crate::error::RobotError;
+use crate::packages::PackageRoots;
+use crate::robot::{Body, JointKind, JointLimits, Robot, Shape};
+use crate::tree::{self, ParsedJoint, ParsedLink};
+use crate::xml::{self, Element};
+use eyebolt_geometry::{Transform, frame};
+use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
+use std::io::Read;
+use std::path::Path;
+
+/// Longest URDF accepted, bytes.
+pub const MAX_URDF_BYTES: u64 = 64 << 20;
+
+impl Robot {
+    /// Reads a URDF file. Meshes must exist, but are not read.
+    ///
+    /// # Errors
+    /// See [`RobotError`]; each names the file, the element and what to do.
+    pub fn from_urdf_file(path: &Path, packages: &PackageRoots) -> Result<Self, RobotError> {
+        let file = path.display().to_string();
+        let text = read_limited(path, &file)?;
+        let directory = match path.parent() {
+            Some(parent) if parent.as_os_str().is_empty() => Path::new("."),
+            Some(parent) => parent,
+            None => Path::new("."),
+        };
+        // Packages above the URDF are found by walking up, which needs the whole path.
+        let absolute = std::path::absolute(directory);
+        let directory = absolute.as_deref().unwrap_or(directory);
+        parse(&text, &file, Some(directory), packages)
+    }
+
+    /// Reads URDF text, such as a recording's `/robot_description`. Relative mesh paths start at
+    /// `directory`.
+    ///
+    /// # Errors
+    /// See [`RobotError`]; each names the element and what to do.
+    pub fn from_urdf_str(
+        text: &str,
+        directory: Option<&Path>,
+        packages: &PackageRoots,
+    ) -> Result<Self, RobotError> {
+        parse(text, "robot description", directory, packages)
+    }
+}
+
+fn read_limited(path: &Path, file: &str) -> Result<String, RobotError> {
+    let failed = |source| RobotError::Read { path: path.to_owned(), source };
+    let handle = std::fs::File::open(path).map_err(failed)?;
+    let mut text = String::new();
+    // One byte more than allowed, so that a file that is too long shows.
+    handle.take(MAX_URDF_BYTES + 1).read_to_string(&mut text).map_err(failed)?;
+    check_length(text.len() as u64, file)?;
+    Ok(text)
+}
+
+fn check_length(bytes: u64, file: &str) -> Result<(), RobotError> {
+    if bytes > MAX_URDF_BYTES {
+        return Err(RobotError::TooLarge { file: file.to_owned(), bytes, limit: MAX_URDF_BYTES });
+    }
+    Ok(())
+}
+
+fn parse(
+    text: &str,
+    file: &str,
+    directory: Option<&Path>,
+    packages: &PackageRoots,
+) -> Result<Robot, RobotError> {
+    check_length(text.len() as u64, file)?;
+    let trimmed = text.trim_start_matches('\u{feff}').trim_start();
+    let document = xml::parse(trimmed).map_err(|(problem, remedy)| RobotError::Xml {
+        file: file.to_owned(),
+        problem,
+        remedy,
+    })?;
+    let root = Element { node: document.root_element(), file, context: "<robot>".to_owned() };
+    let found = root.node.tag_name().name();
+    if found != "robot" {
+        return Err(root.error("", format!("the outermost element is <{found}>; give a URDF")));
+    }
+    if let Some(xacro) = root.node.descendants().find(|node| {
+        node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
+    }) {
+        return Err(root
+            .around(xacro)
+            .error("", "this is xacro; expand it first: xacro FILE.xacro > FILE.urdf"));
+    }
+    let reader = Reader { directory, packages, quaternions: has_quaternions(&root) };
+    let links = root.children("link").map(|link| reader.link(link)).collect::<Result<_, _>>()?;
+    let joints =
+        root.children("joint").map(|joint| reader.joint(joint)).collect::<Result<_, _>>()?;
+    let (links, joints) = tree::build(file, links, joints)?;
+    Ok(Robot {
+        name: root.node.attribute("name").unwrap_or_default().to_owned(),
+        links,
+        joints,
+        source: file.to_owned(),
+        urdf_hash: blake3::hash(text.as_bytes()).to_hex().to_string(),
+    })
+}
+
+/// `quat_xyzw` counts from version 1.1 on; older readers ignore it, and so must we.
+fn has_quaternions(root: &Element<'_, '_>) -> bool {
+    let version = root.node.attribute("version").unwrap_or("1.0").trim();
+    let parts = version
+        .split_once('.')
+        .and_then(|(major, minor)| Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?)));
+    parts.is_some_and(|version| version >= (1, 1))
+}
+
+struct Reader<'r> {
+    directory: Option<&'r Path>,
+    packages: &'r PackageRoots,
+    quaternions: bool,
+}
+
+impl Reader<'_> {
+    fn link(&self, mut element: Element<'_, '_>) -> Result<ParsedLink, RobotError> {
+        let name = named(&mut element, "link")?;
+        let bodies = |kind| {
+            element
+                .children(kind)
+                .map(|body| self.body(&body, &name))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let visuals = bodies("visual")?;
+        let collisions = bodies("collision")?;
+        Ok(ParsedLink { name, visuals, collisions })
+    }
+
+    fn body(&self, element: &Element<'_, '_>, link: &str) -> Result<Body, RobotError> {
+        let geometry = element.required_child("geometry")?;
+        let shape = geometry
+            .node
+            .children()
+            .find(|child| child.is_element())
+            .map(|node| geometry.around(node))
+            .ok_or_else(|| geometry.error("", "empty; add a <mesh> or another shape"))?;
+        Ok(Body { link_from_body: self.origin(element)?, shape: self.shape(&shape, link)? })
+    }
+
+    fn shape(&self, element: &Element<'_, '_>, link: &str) -> Result<Shape, RobotError> {
+        let radius = || element.positive("radius");
+        let length = || element.positive("length");
+        Ok(match element.node.tag_name().name() {
+            "sphere" => Shape::Sphere { radius: radius()? },
+            "cylinder" => Shape::Cylinder { radius: radius()?, length: length()? },
+            "capsule" => Shape::Capsule { radius: radius()?, length: length()? },
+            "box" => {
+                let text = element.required("size")?;
+                match element.numbers("size")? {
+                    Some(size) if size.iter().all(|side| *side > 0.0) => Shape::Box { size },
+                    _ => {
+                        let problem = format!("`{text}`; write 3 lengths in metres above zero");
+                        return Err(element.error("size", problem));
+                    }
+                }
+            }
+            "mesh" => {
+                let url = element.required("filename")?;
+                let scale = element.numbers("scale")?.unwrap_or([1.0; 3]);
+                if scale.contains(&0.0) {
+                    return Err(element.error("scale", "a factor is zero; write 1 for no scale"));
+                }
+                let path = self.packages.resolve(url, self.directory).map_err(|source| {
+                    let file = element.file.to_owned();
+                    RobotError::Mesh { file, link: link.to_owned(), source }
+                })?;
+                Shape::Mesh { path, scale }
+            }
+            other => {
+                let problem =
+                    format!("<{other}> is no shape; use mesh, box, cylinder, sphere or capsule");
+                return Err(element.error("", problem));
+            }
+        })
+    }
+
+    fn joint(&self, mut element: Element<'_, '_>) -> Result<ParsedJoint, RobotError> {
+        let name = named(&mut element, "joint")?;
+        let kind = kind(&element)?;
+        let link =
+            |end| Ok::<_, RobotError>(element.required_child(end)?.required("link")?.to_owned());
+        let mimic = match element.child("mimic")? {
+            Some(mimic) => Some((
+                mimic.required("joint")?.to_owned(),
+                mimic.number("multiplier")?.unwrap_or(1.0),
+                mimic.number("offset")?.unwrap_or(0.0),
+            )),
+            None => None,
+        };
+        Ok(ParsedJoint {
+            parent: link("parent")?,
+            child: link("child")?,
+            parent_from_child_at_zero: self.origin(&element)?,
+            axis: axis(&element, kind)?,
+            limits: limits(&element, kind)?,
+            kind,
+            mimic,
+            name,
+        })
+    }
+
+    /// The pose in `<origin>`: identity where there is none, as the format says.
+    fn origin(
+        &self,
+        element: &Element<'_, '_>,
+    ) -> Result<Transform<frame::Link, frame::Link>, RobotError> {
+        let Some(origin) = element.child("origin")? else { return Ok(Transform::identity()) };
+        let xyz = Vector3::from(origin.numbers("xyz")?.unwrap_or_default());
+        if self.quaternions && origin.node.has_attribute("quat_xyzw") {
+            if origin.node.has_attribute("rpy") {
+                return Err(origin.error("quat_xyzw", "there is an rpy too; keep one of them"));
+            }
+            let xyzw = origin.numbers("quat_xyzw")?.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+            return Transform::from_xyzw(xyz.into(), xyzw)
+                .ok_or_else(|| origin.error("quat_xyzw", "zero; write a unit quaternion"));
+        }
+        let [roll, pitch, yaw] = origin.numbers("rpy")?.unwrap_or_default();
+        let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        Ok(Transform::from_isometry(nalgebra::Isometry3::from_parts(
+            Translation3::from(xyz),
+            rotation,
+        )))
+    }
+}
+
+/// Name of a link or joint; from then on, messages call the element by it.
+fn named(element: &mut Element<'_, '_>, what: &str) -> Result<String, RobotError> {
+    element.context = format!("<{what}>");
+    let name = element.required("name")?.to_owned();
+    if name.is_empty() {
+        return Err(element.error("name", "empty; give a name"));
+    }
+    element.context = format!("{what} `{name}`");
+    Ok(name)
+}
+
+fn kind(element: &Element<'_, '_>) -> Result<JointKind, RobotError> {
+    Ok(match element.required("type")? {
+        "fixed" => JointKind::Fixed,
+        "revolute" => JointKind::Revolute,
+        "continuous" => JointKind::Continuous,
+        "prismatic" => JointKind::Prismatic,
+        other => {
+            let problem = format!(
+                "`{other}` joints are not supported; make it fixed, revolute, continuous or \
+                 prismatic, or remove it with the links on one side"
+            );
+            return Err(element.error("type", problem));
+        }
+    })
+}
+
+fn axis(element: &Element<'_, '_>, kind: JointKind) -> Result<Unit<Vector3<f64>>, RobotError> {
+    let Some(axis) = element.child("axis")? else { return Ok(Vector3::x_axis()) };
+    let xyz = Vector3::from(axis.numbers("xyz")?.unwrap_or([1.0, 0.0, 0.0]));
+    match Unit::try_new(xyz, 1e-9) {
+        Some(unit) => Ok(unit),
+        None if kind == JointKind::Fixed => Ok(Vector3::x_axis()),
+        None => Err(axis.error("xyz", "zero; write the direction that the joint moves about")),
+    }
+}
+
+fn limits(element: &Element<'_, '_>, kind: JointKind) -> Result<Option<JointLimits>, RobotError> {
+    if !matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
+        return Ok(None);
+    }
+    let Some(limit) = element.child("limit")? else { return Ok(None) };
+    match (limit.number("lower")?, limit.number("upper")?) {
+        (None, None) => Ok(None),
+        (lower, upper) => {
+            let (lower, upper) = (lower.unwrap_or(0.0), upper.unwrap_or(0.0));
+            if lower > upper {
+                let problem = format!("{lower} is above upper {upper}; swap them");
+                return Err(limit.error("lower", problem));
+            }
+            Ok(Some(JointLimits { lower, upper }))
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! How well a pose explains what was seen, counted in pixels.
+
+use crate::session::Session;
+use eyebolt_geometry::{Base, Camera, Mask, Transform};
+use eyebolt_registration::View;
+use eyebolt_render::Raster;
+use nalgebra::Point3;
+use rayon::prelude::*;
+
+/// Pixels of one configuration, sorted by what they say of a pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Pixels of the posed arm where something was seen at its depth.
+    pub agree: usize,
+    /// Pixels of the posed arm that the camera saw through, or that lie outside the mask.
+    pub contradict: usize,
+    /// Pixels of the posed arm where nothing can be said: hidden, or without depth.
+    pub unknown: usize,
+    /// Pixels known to be the arm that lie on the posed arm's surface.
+    pub explained: usize,
+    /// Pixels known to be the arm that do not.
+    pub unexplained: usize,
+}
+
+/// Every how many pixels of a mask one is looked at, along rows and columns.
+const STRIDE: usize = 2;
+
+impl Agreement {
+    /// Share of the posed arm's pixels that are contradicted, of those that can be judged.
+    pub fn contradicted_share(&self) -> f64 {
+        share(self.contradict, self.agree)
+    }
+
+    /// Share of the arm's pixels that the posed arm does not explain.
+    pub fn unexplained_share(&self) -> f64 {
+        share(self.unexplained, self.explained)
+    }
+
+    /// All counts added up.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            agree: self.agree + other.agree,
+            contradict: self.contradict + other.contradict,
+            unknown: self.unknown + other.unknown,
+            explained: self.explained + other.explained,
+            unexplained: self.unexplained + other.unexplained,
+        }
+    }
+}
+
+fn share(part: usize, rest: usize) -> f64 {
+    match part + rest {
+        0 => 1.0,
+        whole => part as f64 / whole as f64,
+    }
+}
+
+/// The agreement of each of `views` with the arm posed at `camera_from_base`, `masks` saying which
+/// pixels are the arm.
+pub fn agreement(
+    session: &Session,
+    views: &[View<'_>],
+    masks: &[&Mask],
+    rasters: &mut [Raster],
+    camera_from_base: &Transform<Camera, Base>,
+) -> Vec<Agreement> {
+    let work = views.par_iter().zip(masks).zip(rasters.par_iter_mut());
+    work.map(|((view, mask), raster)| {
+        raster.draw(view.camera, &view.posture.meshes(&session.arm, camera_from_base));
+        let mut counts = model_pixels(view, raster);
+        (counts.explained, counts.unexplained) = arm_pixels(session, view, mask, camera_from_base);
+        counts
+    })
+    .collect()
+}
+
+/// Half of what registration tolerates while it searches: a found pose has to fit better.
+fn tolerance_m(z: f32) -> f32 {
+    0.6 * View::tolerance_m(z)
+}
+
+fn model_pixels(view: &View<'_>, raster: &Raster) -> Agreement {
+    let mut counts = Agreement::default();
+    for at in raster.pixels() {
+        let Some(z) = raster.depth_m(at) else { continue };
+        let seen = view.depth.depth_m()[at];
+        if seen > 0.0 && seen < z - tolerance_m(z) {
+            counts.unknown += 1;
+        } else if view.mask.is_some_and(|mask| !mask.as_slice()[at]) {
+            counts.contradict += 1;
+        } else if seen <= 0.0 {
+            counts.unknown += 1;
+        } else if seen > z + tolerance_m(z) {
+            counts.contradict += 1;
+        } else {
+            counts.agree += 1;
+        }
+    }
+    counts
+}
+
+fn arm_pixels(
+    session: &Session,
+    view: &View<'_>,
+    mask: &Mask,
+    camera_from_base: &Transform<Camera, Base>,
+) -> (usize, usize) {
+    let pose = camera_from_base.inverse().isometry().cast::<f32>();
+    let (width, height) = (view.depth.width() as usize, view.depth.height() as usize);
+    let (mut explained, mut unexplained) = (0, 0);
+    for v in (0..height).step_by(STRIDE) {
+        for u in (0..width).step_by(STRIDE) {
+            let at = v * width + u;
+            let z = view.depth.depth_m()[at];
+            if !mask.as_slice()[at] || z <= 0.0 {
+                continue;
+            }
+            let [x, y] = session.rays.rays()[at];
+            let nearest = view.posture.nearest(&session.arm, &(pose * Point3::new(x * z, y * z, z)));
+            match nearest.is_some_and(|nearest| nearest.distance_m.abs() < tolerance_m(z)) {
+                true => explained += 1,
+                false => unexplained += 1,
+            }
+        }
+    }
+    (explained, unexplained)
+}
