@@ -91,17 +91,31 @@ impl Posture {
 
     /// Signed distance from `point_in_base` (metres) to the arm.
     pub fn nearest(&self, arm: &ArmModel, point_in_base: &Point3<f32>) -> Option<NearestSurface> {
+        self.nearest_within(arm, point_in_base, f32::INFINITY)
+    }
+
+    /// As [`Self::nearest`], but only what is nearer than `limit_m`, which is quickly decided where
+    /// there is nothing.
+    pub fn nearest_within(
+        &self,
+        arm: &ArmModel,
+        point_in_base: &Point3<f32>,
+        limit_m: f32,
+    ) -> Option<NearestSurface> {
         let mut best: Option<(usize, DistanceSample)> = None;
+        let mut limit_m = limit_m;
         for (link, (shape, placed)) in arm.links.iter().zip(&self.placed).enumerate() {
-            let reach = best.map_or(f32::INFINITY, |(_, sample)| sample.distance_m) + placed.radius_m;
+            let reach = limit_m + placed.radius_m;
             // A field never says less than the distance to its own sphere.
             let apart = (point_in_base - placed.centre_in_base).norm_squared();
             if reach < 0.0 || apart > reach * reach {
                 continue;
             }
-            let in_link = Point3::from(placed.link_from_base * point_in_base.coords + placed.offset);
+            let in_link =
+                Point3::from(placed.link_from_base * point_in_base.coords + placed.offset);
             let sample = shape.model.field.sample(&in_link);
-            if best.is_none_or(|(_, found)| sample.distance_m < found.distance_m) {
+            if sample.distance_m < limit_m {
+                limit_m = sample.distance_m;
                 best = Some((link, sample));
             }
         }

@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Changes whenever what is stored or how it is built does.
-const VERSION: &[u8; 16] = b"eyebolt link  02";
+const VERSION: &[u8; 16] = b"eyebolt link  03";
 
 /// A folder of link models.
 #[derive(Clone, Debug)]
@@ -127,14 +127,21 @@ fn decode(bytes: &[u8]) -> Option<LinkModel> {
     if corners.iter().any(|corner| *corner as usize >= vertices.len()) {
         return None;
     }
-    Some(LinkModel { field, surface, mesh: TriangleMesh { vertices, triangles: triangles.to_vec() } })
+    Some(LinkModel {
+        field,
+        surface,
+        mesh: TriangleMesh { vertices, triangles: triangles.to_vec() },
+    })
 }
 
 /// What is left to read.
 struct Reader<'a>(&'a [u8]);
 
 impl<'a> Reader<'a> {
-    fn chunks<const N: usize>(&mut self, count: usize) -> Option<impl Iterator<Item = [u8; N]> + use<'a, N>> {
+    fn chunks<const N: usize>(
+        &mut self,
+        count: usize,
+    ) -> Option<impl Iterator<Item = [u8; N]> + use<'a, N>> {
         let (head, rest) = self.0.split_at_checked(count.checked_mul(N)?)?;
         self.0 = rest;
         Some(head.as_chunks::<N>().0.iter().copied())

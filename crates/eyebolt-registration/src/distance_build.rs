@@ -172,7 +172,8 @@ impl<'a> Builder<'a> {
         for k in 0..nz {
             for j in 0..ny {
                 for i in 0..nx {
-                    let border = [(i, nx), (j, ny), (k, nz)].iter().any(|&(v, n)| v == 0 || v + 1 == n);
+                    let border =
+                        [(i, nx), (j, ny), (k, nz)].iter().any(|&(v, n)| v == 0 || v + 1 == n);
                     let at = self.index([i, j, k]);
                     if border && open(at) {
                         reached[at] = true;

@@ -1,7 +1,7 @@
 //! What registration needs to know of one link.
 
 use crate::distance_field::DistanceField;
-use crate::simplify::simplified;
+use crate::simplify::{outward, simplified};
 use crate::surface_sample::{SurfacePoint, sample_surface};
 use eyebolt_robot::TriangleMesh;
 
@@ -12,7 +12,8 @@ pub struct LinkModel {
     pub field: DistanceField,
     /// Points spread evenly over the outside.
     pub surface: Vec<SurfacePoint>,
-    /// The mesh, simplified to about four millimetres, for drawing.
+    /// The outside of the mesh for drawing, simplified to about five millimetres; triangles run
+    /// counter-clockwise as seen from outside.
     pub mesh: TriangleMesh,
 }
 
@@ -22,7 +23,7 @@ const VOXEL_M: f32 = 0.005;
 /// How far the distance field reaches beyond the link.
 const MARGIN_M: f32 = 0.06;
 /// Size of the cells that vertices are merged in for drawing.
-const SIMPLIFY_M: f32 = 0.004;
+const SIMPLIFY_M: f32 = 0.005;
 const SURFACE_POINTS: usize = 800;
 
 impl LinkModel {
@@ -30,6 +31,7 @@ impl LinkModel {
     pub fn build(mesh: &TriangleMesh) -> Self {
         let field = DistanceField::build(mesh, VOXEL_M, MARGIN_M);
         let surface = sample_surface(mesh, &field, SURFACE_POINTS);
-        Self { surface, mesh: simplified(mesh, SIMPLIFY_M), field }
+        let drawn = outward(&simplified(mesh, SIMPLIFY_M), &field);
+        Self { field, surface, mesh: drawn }
     }
 }

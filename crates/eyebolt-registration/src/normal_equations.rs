@@ -20,12 +20,7 @@ pub struct NormalEquations<const N: usize> {
 
 impl<const N: usize> Default for NormalEquations<N> {
     fn default() -> Self {
-        Self {
-            information: SMatrix::zeros(),
-            gradient: SVector::zeros(),
-            cost: 0.0,
-            weight: 0.0,
-        }
+        Self { information: SMatrix::zeros(), gradient: SVector::zeros(), cost: 0.0, weight: 0.0 }
     }
 }
 

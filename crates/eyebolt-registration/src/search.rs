@@ -76,7 +76,9 @@ pub fn search(arm: &ArmModel, views: &[SearchView<'_>], wanted: usize) -> Vec<Ca
     let scales = [0.10, 0.08, 0.06, 0.05, 0.04, 0.04, 0.03, 0.03, 0.03, 0.03];
     let mut polished: Vec<Candidate> = starts
         .par_iter()
-        .map(|start| judge(&many, polish(&many, *start.camera_from_base.inverse().isometry(), &scales)))
+        .map(|start| {
+            judge(&many, polish(&many, *start.camera_from_base.inverse().isometry(), &scales))
+        })
         .collect();
     sort(&mut polished);
     distinct(&polished, wanted, 0.10, 10f64.to_radians())
@@ -167,8 +169,8 @@ fn start_translation(
     for problem in problems {
         let sight = rotation * problem.centroid;
         let visible = problem.surface.iter().filter(|s| s.normal.dot(&sight) < 0.0);
-        let (total, count) = visible
-            .fold((Vector3::zeros(), 0usize), |(t, n), s| (t + s.point.coords, n + 1));
+        let (total, count) =
+            visible.fold((Vector3::zeros(), 0usize), |(t, n), s| (t + s.point.coords, n + 1));
         sum += total / count.max(1) as f32 - sight;
     }
     let translation = sum / problems.len() as f32;
@@ -207,7 +209,8 @@ fn polish(
 
 fn judge(problems: &[Problem<'_>], base_from_camera: Isometry3<f64>) -> Candidate {
     let camera_from_base = Transform::<Camera, Base>::from_isometry(base_from_camera.inverse());
-    let (inward, outward) = (base_from_camera.cast::<f32>(), camera_from_base.isometry().cast::<f32>());
+    let (inward, outward) =
+        (base_from_camera.cast::<f32>(), camera_from_base.isometry().cast::<f32>());
     let (mut distance, mut contradicted) = (0.0, 0.0);
     for problem in problems {
         let mut sum = 0.0;

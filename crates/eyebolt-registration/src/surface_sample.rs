@@ -56,7 +56,8 @@ fn on_triangle(
     index: u32,
 ) -> Option<SurfacePoint> {
     // Additive recurrence on the plastic number: evenly spread pairs without a random generator.
-    let (x, y) = (f64::from(index) * 0.754_877_666_246_692_7, f64::from(index) * 0.569_840_290_998_053_2);
+    let (x, y) =
+        (f64::from(index) * 0.754_877_666_246_692_7, f64::from(index) * 0.569_840_290_998_053_2);
     let (mut u, mut v) = (x.fract() as f32, y.fract() as f32);
     if u + v > 1.0 {
         (u, v) = (1.0 - u, 1.0 - v);

@@ -33,14 +33,21 @@ pub fn contour(raster: &Raster, camera: &PinholeCamera) -> Vec<ContourPoint> {
         for u in columns.start.max(3)..columns.end.min(width.saturating_sub(3)) {
             let at = v * width + u;
             let (Some(z), Some(link)) = (raster.depth_m(at), raster.link(at)) else { continue };
-            let neighbours = [(1.0, 0.0, at + 1), (-1.0, 0.0, at - 1), (0.0, 1.0, at + width), (0.0, -1.0, at - width)];
+            let neighbours = [
+                (1.0, 0.0, at + 1),
+                (-1.0, 0.0, at - 1),
+                (0.0, 1.0, at + width),
+                (0.0, -1.0, at - width),
+            ];
             for (du, dv, beyond) in neighbours {
                 let behind_m = raster.depth_m(beyond);
                 if behind_m.is_some_and(|behind| behind < z + STEP_M) {
                     continue;
                 }
                 let pixel = Point2::new(u as f32 + 0.5 * du, v as f32 + 0.5 * dv);
-                let Some(outward) = outward(raster, u, v, z, Vector2::new(du, dv)) else { continue };
+                let Some(outward) = outward(raster, u, v, z, Vector2::new(du, dv)) else {
+                    continue;
+                };
                 let Some(ray) = camera.ray(&pixel.cast::<f64>()) else { continue };
                 let point_in_camera = Point3::from(ray.cast::<f32>() * z);
                 points.push(ContourPoint { pixel, point_in_camera, outward, link, behind_m });
@@ -51,7 +58,13 @@ pub fn contour(raster: &Raster, camera: &PinholeCamera) -> Vec<ContourPoint> {
 }
 
 /// Direction out of the surface: away from where its pixels are in the neighbourhood.
-fn outward(raster: &Raster, u: usize, v: usize, z: f32, crack: Vector2<f32>) -> Option<Vector2<f32>> {
+fn outward(
+    raster: &Raster,
+    u: usize,
+    v: usize,
+    z: f32,
+    crack: Vector2<f32>,
+) -> Option<Vector2<f32>> {
     let mut inside = Vector2::zeros();
     for dv in -3i32..=3 {
         for du in -3i32..=3 {

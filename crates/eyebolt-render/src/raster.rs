@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 /// A mesh in its link's frame and where that link is.
 #[derive(Clone, Copy, Debug)]
 pub struct PosedMesh<'a> {
-    /// The mesh, link frame, metres.
+    /// The mesh, link frame, metres, corners counter-clockwise as seen from outside.
     pub mesh: &'a TriangleMesh,
     /// Pose of the link.
     pub camera_from_link: Transform<Camera, Link>,
@@ -76,7 +76,8 @@ impl Raster {
         }
     }
 
-    /// Clears the raster and draws `meshes` as `camera` sees them. Both faces of a triangle count.
+    /// Clears the raster and draws `meshes` as `camera` sees them. Triangles seen from behind are
+    /// not drawn.
     ///
     /// `camera` must have the size of the one the raster was made for; edges are drawn straight,
     /// which a lens with distortion bends by less than the triangles are small.
@@ -130,12 +131,13 @@ impl Raster {
     }
 
     fn fill(&mut self, [a, b, c]: [Projected; 3], link: u8) {
-        let Some((u0, u1)) = pixels_between([a.u, b.u, c.u], self.width) else { return };
-        let Some((v0, v1)) = pixels_between([a.v, b.v, c.v], self.height) else { return };
         let area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-        if area == 0.0 || !area.is_finite() {
+        // With v down the image, counter-clockwise corners have a negative area.
+        if !(area < 0.0 && area.is_finite()) {
             return;
         }
+        let Some((u0, u1)) = pixels_between([a.u, b.u, c.u], self.width) else { return };
+        let Some((v0, v1)) = pixels_between([a.v, b.v, c.v], self.height) else { return };
         // Barycentric weights and inverse depth are affine in the pixel.
         let scale = 1.0 / area;
         let wb_u = (c.v - a.v) * scale;

@@ -18,8 +18,7 @@ const MOVED_M: f32 = 0.04;
 /// The arm's pixels as far as they are known before any pose is: the masks of the recording, or
 /// what moved.
 pub fn arm_masks(session: &Session) -> Vec<Mask> {
-    let given: Option<Vec<Mask>> =
-        session.configurations.iter().map(|c| c.mask.clone()).collect();
+    let given: Option<Vec<Mask>> = session.configurations.iter().map(|c| c.mask.clone()).collect();
     given.unwrap_or_else(|| moving_masks(&session.configurations))
 }
 
@@ -28,15 +27,16 @@ pub fn arm_masks(session: &Session) -> Vec<Mask> {
 pub fn start(session: &Session, masks: &[Mask], wanted: usize) -> Vec<Candidate> {
     let whole = session.has_masks();
     let pairs = session.configurations.par_iter().zip(masks);
-    let views: Vec<SearchView<'_>> = pairs
-        .filter_map(|(configuration, mask)| {
-            let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
-            let surface = surface(session, configuration, whole);
-            let view = session.view(configuration);
-            (arm_points.len() >= SEARCH_POINTS / 20 && !surface.is_empty())
-                .then_some(SearchView { view, arm_points, surface })
-        })
-        .collect();
+    let views: Vec<SearchView<'_>> =
+        pairs
+            .filter_map(|(configuration, mask)| {
+                let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
+                let surface = surface(session, configuration, whole);
+                let view = session.view(configuration);
+                (arm_points.len() >= SEARCH_POINTS / 20 && !surface.is_empty())
+                    .then_some(SearchView { view, arm_points, surface })
+            })
+            .collect();
     search(&session.arm, &views, wanted)
 }
 

@@ -2,8 +2,7 @@
 
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{
-    Camera, Cloud, DepthImage, PinholeCamera, RayTable, Transform,
-    fit_projection,
+    Camera, Cloud, DepthImage, PinholeCamera, RayTable, Transform, fit_projection,
 };
 use eyebolt_recording::{Folder, Frame, Range, RecordingError};
 use eyebolt_registration::{ArmLink, ArmModel, LinkCache, Posture};
@@ -71,7 +70,8 @@ pub fn open(
     let frames = read_frames(folder, use_masks)?;
     let poses = frames.iter().map(|frame| link_poses(arm, frame)).collect::<Result<Vec<_>, _>>()?;
     // A link that some frame does not place takes no part in any.
-    let placed = |link: &usize| poses.iter().all(|poses| poses.get(*link).is_some_and(Option::is_some));
+    let placed =
+        |link: &usize| poses.iter().all(|poses| poses.get(*link).is_some_and(Option::is_some));
     let links = (0..arm.robot().links.len()).filter(placed).collect();
     let (links, model) = shapes(arm, links, cache)?;
     let (camera, optical_from_camera) = camera_of(folder, &frames)?;
@@ -185,5 +185,6 @@ fn grid_depth(
         return turned.to_depth_image(camera);
     }
     let depth = turned.points().iter().map(|p| p.z).collect();
-    DepthImage::new(camera.width(), camera.height(), depth).expect("the cloud has the camera's size")
+    DepthImage::new(camera.width(), camera.height(), depth)
+        .expect("the cloud has the camera's size")
 }

@@ -61,7 +61,8 @@ pub fn refine(
     for options in rounds {
         let pose = refinement.as_ref().map_or(*start, |r| r.camera_from_base);
         let observed = observe(session, views, rasters, &pose);
-        refinement = Some(eyebolt_registration::refine(&session.arm, &observed, rasters, &pose, options));
+        refinement =
+            Some(eyebolt_registration::refine(&session.arm, &observed, rasters, &pose, options));
     }
     refinement.expect("at least one round")
 }

@@ -116,10 +116,11 @@ fn arm_pixels(
                 continue;
             }
             let [x, y] = session.rays.rays()[at];
-            let nearest = view.posture.nearest(&session.arm, &(pose * Point3::new(x * z, y * z, z)));
-            match nearest.is_some_and(|nearest| nearest.distance_m.abs() < tolerance_m(z)) {
-                true => explained += 1,
-                false => unexplained += 1,
+            let point = pose * Point3::new(x * z, y * z, z);
+            let limit = tolerance_m(z);
+            match view.posture.nearest_within(&session.arm, &point, limit) {
+                Some(nearest) if nearest.distance_m > -limit => explained += 1,
+                _ => unexplained += 1,
             }
         }
     }

@@ -18,6 +18,9 @@ fn near_m(z: f32) -> f32 {
     0.8 * View::tolerance_m(z)
 }
 
+/// Up to this many times as far something is close to the arm.
+const CLOSE: f32 = 2.5;
+
 /// Labels of the rectangle about the arm posed at `camera_from_base`.
 ///
 /// Given a mask, its pixels are the arm, and the rest is background but for what hides the arm and
@@ -57,7 +60,8 @@ fn rectangle(view: &View<'_>, raster: &Raster) -> (Range<usize>, Range<usize>) {
     (widen(columns, raster.width()), widen(rows, raster.height()))
 }
 
-/// Signed distance of what each pixel of the rectangle saw from the posed arm; NaN without depth.
+/// Signed distance of what each pixel of the rectangle saw from the posed arm; NaN without depth,
+/// infinite where that is not close to the arm.
 fn surface_distances(
     arm: &ArmModel,
     view: &View<'_>,
@@ -78,8 +82,12 @@ fn surface_distances(
             let z = depth[at];
             let [x, y] = rays.rays()[at];
             let point = rotation * Point3::new(x * z, y * z, z) + pose.translation.vector;
-            let nearest = (z > 0.0).then(|| view.posture.nearest(arm, &point)).flatten();
-            distances.push(nearest.map_or(f32::NAN, |nearest| nearest.distance_m));
+            if !(z > 0.0) {
+                distances.push(f32::NAN);
+                continue;
+            }
+            let nearest = view.posture.nearest_within(arm, &point, CLOSE * near_m(z));
+            distances.push(nearest.map_or(f32::INFINITY, |nearest| nearest.distance_m));
         }
     }
     distances
@@ -124,7 +132,7 @@ fn without_mask(
         let near = near_m(view.depth.at(u as u32, v as u32));
         match distance[index(u, v)] {
             d if d < near => Label::Arm,
-            d if d < 2.5 * near => Label::Ignore,
+            d if d < CLOSE * near => Label::Ignore,
             _ => Label::Background,
         }
     });
