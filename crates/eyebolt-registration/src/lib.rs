@@ -24,7 +24,7 @@ pub use cache::LinkCache;
 pub use distance_field::{DistanceField, DistanceSample};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
-pub use refine::{RefineOptions, RefineView, Refinement, StopReason, ViewFit, refine};
+pub use refine::{RefineOptions, RefineView, Refinement, StopReason, Trust, ViewFit, refine};
 pub use robust::median;
 pub use rotations::spread_rotations;
 pub use search::{Candidate, SearchView, search};

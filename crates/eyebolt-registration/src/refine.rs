@@ -10,7 +10,7 @@ use crate::silhouette::Silhouette;
 use crate::view::View;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_render::{Raster, contour};
-use nalgebra::{Matrix6, Point3, SMatrix, SVector};
+use nalgebra::{Matrix6, Point3, SMatrix, SVector, Vector6};
 use rayon::prelude::*;
 
 /// One configuration in the refinement.
@@ -36,6 +36,33 @@ pub struct RefineOptions {
     pub surface_scale_m: f64,
     /// Likewise on outlines, pixels.
     pub outline_scale_px: f64,
+    /// How much the two kinds of evidence count.
+    pub trust: Trust,
+}
+
+/// How much the two kinds of evidence count: as much as their residuals deserve, or one of them
+/// hardly at all, to see whether the two agree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// Both.
+    Both,
+    /// Distances from surfaces.
+    Surfaces,
+    /// Distances from outlines.
+    Outlines,
+}
+
+/// What remains of a kind of evidence that is not trusted: enough to determine the pose.
+const DISTRUSTED: f64 = 0.01;
+
+impl Trust {
+    fn in_surfaces(self) -> f64 {
+        if self == Self::Outlines { DISTRUSTED } else { 1.0 }
+    }
+
+    fn in_outlines(self) -> f64 {
+        if self == Self::Surfaces { DISTRUSTED } else { 1.0 }
+    }
 }
 
 /// Why a refinement stopped.
@@ -84,6 +111,8 @@ pub struct Refinement {
     pub views: Vec<ViewFit>,
     /// Steps taken.
     pub iterations: usize,
+    /// The last of them: translation (m) and rotation (rad).
+    pub last_step: Vector6<f64>,
     /// Why it stopped.
     pub stop: StopReason,
 }
@@ -106,6 +135,14 @@ const CONTOUR_POINTS: usize = 1500;
 struct Scales {
     surface_m: f64,
     outline_px: f64,
+}
+
+/// How residuals are weighed in one step.
+#[derive(Clone, Copy)]
+struct Weighing {
+    scales: Scales,
+    sigma: Scales,
+    trust: Trust,
 }
 
 /// Residuals of one view at one state.
@@ -136,15 +173,18 @@ pub fn refine(
         Scales { surface_m: options.surface_scale_m, outline_px: options.outline_scale_px };
     let mut stop = StopReason::IterationLimit;
     let mut iterations = 0;
+    let mut last_step = Vector6::zeros();
     let mut evidence = gather(arm, views, rasters, &state);
     while iterations < options.iterations {
         iterations += 1;
         let sigma = deviations(&evidence, &scales);
-        let sum = total(&evidence, &scales, &sigma, &state);
+        let weighing = Weighing { scales, sigma, trust: options.trust };
+        let sum = total(&evidence, &weighing, &state);
         let Some(step) = sum.solve(1e-6) else {
             stop = StopReason::Underdetermined;
             break;
         };
+        last_step = step.fixed_rows::<6>(0).into_owned();
         state = state.stepped(&step);
         evidence = gather(arm, views, rasters, &state);
         let settled = scales.surface_m <= 3.01 * sigma.surface_m.max(0.002)
@@ -156,7 +196,11 @@ pub fn refine(
         scales.surface_m = (0.6 * scales.surface_m).max(3.0 * sigma.surface_m.max(0.002));
         scales.outline_px = (0.6 * scales.outline_px).max(3.0 * sigma.outline_px);
     }
-    summarise(&state, &evidence, &scales, iterations, stop)
+    let mut outcome = summarise(&state, &evidence, &scales, options.trust);
+    if outcome.stop != StopReason::Underdetermined {
+        outcome.stop = stop;
+    }
+    Refinement { iterations, last_step, ..outcome }
 }
 
 /// The contour is drawn to whole pixels: below a tenth of a millimetre and 0.01 degrees steps only
@@ -219,30 +263,29 @@ fn deviations(evidence: &[Evidence], scales: &Scales) -> Scales {
     }
 }
 
-fn surface_weight(evidence: &Evidence, factor: &Factor, scales: &Scales, sigma: &Scales) -> f64 {
-    let patches = (evidence.pixels_per_point / SURFACE_PATCH_PX).min(1.0);
-    patches * geman_mcclure(factor.residual, scales.surface_m) / sigma.surface_m.powi(2)
-}
+impl Weighing {
+    fn surface(&self, evidence: &Evidence, factor: &Factor) -> f64 {
+        let patches = (evidence.pixels_per_point / SURFACE_PATCH_PX).min(1.0);
+        let robust = geman_mcclure(factor.residual, self.scales.surface_m);
+        self.trust.in_surfaces() * patches * robust / self.sigma.surface_m.powi(2)
+    }
 
-fn outline_weight(evidence: &Evidence, factor: &Factor, scales: &Scales, sigma: &Scales) -> f64 {
-    let patches = (evidence.cracks_per_factor / OUTLINE_PATCH_PX).min(1.0);
-    patches * geman_mcclure(factor.residual, scales.outline_px) / sigma.outline_px.powi(2)
+    fn outline(&self, evidence: &Evidence, factor: &Factor) -> f64 {
+        let patches = (evidence.cracks_per_factor / OUTLINE_PATCH_PX).min(1.0);
+        let robust = geman_mcclure(factor.residual, self.scales.outline_px);
+        self.trust.in_outlines() * patches * robust / self.sigma.outline_px.powi(2)
+    }
 }
 
 /// The linearised problem of all views, with the priors.
-fn total(
-    evidence: &[Evidence],
-    scales: &Scales,
-    sigma: &Scales,
-    state: &State,
-) -> NormalEquations<UNKNOWNS> {
+fn total(evidence: &[Evidence], weighing: &Weighing, state: &State) -> NormalEquations<UNKNOWNS> {
     let mut sum = NormalEquations::default();
     for view in evidence {
         for factor in &view.surface {
-            sum.add(&factor.jacobian, factor.residual, surface_weight(view, factor, scales, sigma));
+            sum.add(&factor.jacobian, factor.residual, weighing.surface(view, factor));
         }
         for factor in &view.outline {
-            sum.add(&factor.jacobian, factor.residual, outline_weight(view, factor, scales, sigma));
+            sum.add(&factor.jacobian, factor.residual, weighing.outline(view, factor));
         }
     }
     let priors = [
@@ -255,17 +298,12 @@ fn total(
     sum
 }
 
-fn summarise(
-    state: &State,
-    evidence: &[Evidence],
-    scales: &Scales,
-    iterations: usize,
-    stop: StopReason,
-) -> Refinement {
+fn summarise(state: &State, evidence: &[Evidence], scales: &Scales, trust: Trust) -> Refinement {
     let sigma = deviations(evidence, scales);
-    let sum = total(evidence, scales, &sigma, state);
+    let weighing = Weighing { scales: *scales, sigma, trust };
+    let sum = total(evidence, &weighing, state);
     let views = evidence.iter().map(|view| view_fit(view, &sigma)).collect();
-    let covariance = sandwich(evidence, scales, &sigma, &sum);
+    let covariance = sandwich(evidence, &weighing, &sum);
     let inverse = sum.information.try_inverse();
     let pose_only = inverse
         .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
@@ -279,8 +317,13 @@ fn summarise(
         surface_sigma_m: sigma.surface_m,
         outline_sigma_px: sigma.outline_px,
         views,
-        iterations,
-        stop: if covariance.is_none() { StopReason::Underdetermined } else { stop },
+        iterations: 0,
+        last_step: Vector6::zeros(),
+        stop: if covariance.is_none() {
+            StopReason::Underdetermined
+        } else {
+            StopReason::Converged
+        },
     }
 }
 
@@ -288,8 +331,7 @@ fn summarise(
 /// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986).
 fn sandwich(
     evidence: &[Evidence],
-    scales: &Scales,
-    sigma: &Scales,
+    weighing: &Weighing,
     sum: &NormalEquations<UNKNOWNS>,
 ) -> Option<Matrix6<f64>> {
     let bread = sum.information.try_inverse()?;
@@ -298,11 +340,11 @@ fn sandwich(
         let links = view.surface.iter().chain(&view.outline).map(|f| f.link + 1).max().unwrap_or(0);
         let mut scores = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
         for factor in &view.surface {
-            let weight = surface_weight(view, factor, scales, sigma);
+            let weight = weighing.surface(view, factor);
             scores[factor.link][0] += factor.jacobian * (weight * factor.residual);
         }
         for factor in &view.outline {
-            let weight = outline_weight(view, factor, scales, sigma);
+            let weight = weighing.outline(view, factor);
             scores[factor.link][1] += factor.jacobian * (weight * factor.residual);
         }
         for score in scores.iter().flatten() {

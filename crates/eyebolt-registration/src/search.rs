@@ -47,16 +47,24 @@ impl Candidate {
 const CAP_M: f64 = 0.10;
 /// Rotations tried: one within about 14 degrees of any.
 const ROTATIONS: usize = 4000;
-/// How many starts are polished with all points.
-const POLISHED: usize = 160;
+/// How many starts are looked at more closely.
+const HOPEFUL: usize = 1000;
+/// How many of these are polished with all points, and with which scales.
+const POLISHED: usize = 120;
+const POLISH: [f64; 8] = [0.10, 0.08, 0.06, 0.05, 0.04, 0.03, 0.03, 0.03];
 const COARSE_VOXEL_M: f32 = 0.03;
 const COARSE_MARGIN_M: f32 = 0.15;
 
 /// Poses of the base that explain the views, best first, each at least 10 degrees or 10 cm from
-/// the ones before it; at most `wanted`.
+/// the ones before it; at most `wanted`. `seed` turns the rotations tried.
 ///
 /// Empty if there are no views or a view has no points.
-pub fn search(arm: &ArmModel, views: &[SearchView<'_>], wanted: usize) -> Vec<Candidate> {
+pub fn search(
+    arm: &ArmModel,
+    views: &[SearchView<'_>],
+    seed: u64,
+    wanted: usize,
+) -> Vec<Candidate> {
     if views.is_empty() || views.iter().any(|v| v.arm_points.is_empty() || v.surface.is_empty()) {
         return Vec::new();
     }
@@ -64,28 +72,33 @@ pub fn search(arm: &ArmModel, views: &[SearchView<'_>], wanted: usize) -> Vec<Ca
         views.par_iter().map(|view| whole_arm(arm, view.view.posture)).collect();
     let few: Vec<Problem<'_>> = problems(views, &fields, 24, 40);
     let many: Vec<Problem<'_>> = problems(views, &fields, 200, 120);
-    let mut starts: Vec<Candidate> = spread_rotations(ROTATIONS)
-        .par_iter()
-        .map(|rotation| {
-            let start = start_translation(&few, rotation);
-            judge(&few, polish(&few, start, &[0.20, 0.15, 0.10, 0.08]))
-        })
-        .collect();
-    sort(&mut starts);
+    let starts = spread_rotations(ROTATIONS, seed);
+    let starts: Vec<Isometry3<f64>> =
+        starts.iter().map(|rotation| start_translation(&few, rotation)).collect();
+    // Most starts are hopeless, which two steps are enough to tell.
+    let starts = best(&few, &starts, &[0.20, 0.15], HOPEFUL);
+    let starts = best(&few, &poses(&starts), &[0.12, 0.10, 0.08], HOPEFUL);
     let starts = distinct(&starts, POLISHED, 0.05, 6f64.to_radians());
-    let scales = [0.10, 0.08, 0.06, 0.05, 0.04, 0.04, 0.03, 0.03, 0.03, 0.03];
-    let mut polished: Vec<Candidate> = starts
-        .par_iter()
-        .map(|start| {
-            judge(&many, polish(&many, *start.camera_from_base.inverse().isometry(), &scales))
-        })
-        .collect();
-    sort(&mut polished);
+    let polished = best(&many, &poses(&starts), &POLISH, POLISHED);
     distinct(&polished, wanted, 0.10, 10f64.to_radians())
 }
 
-fn sort(candidates: &mut [Candidate]) {
-    candidates.sort_by(|a, b| a.score().total_cmp(&b.score()));
+/// The `count` best of `starts` after one step of least squares for each of `scales`, best first.
+fn best(
+    problems: &[Problem<'_>],
+    starts: &[Isometry3<f64>],
+    scales: &[f64],
+    count: usize,
+) -> Vec<Candidate> {
+    let mut found: Vec<Candidate> =
+        starts.par_iter().map(|start| judge(problems, polish(problems, *start, scales))).collect();
+    found.sort_by(|a, b| a.score().total_cmp(&b.score()));
+    found.truncate(count);
+    found
+}
+
+fn poses(candidates: &[Candidate]) -> Vec<Isometry3<f64>> {
+    candidates.iter().map(|candidate| *candidate.camera_from_base.inverse().isometry()).collect()
 }
 
 fn distinct(sorted: &[Candidate], wanted: usize, apart_m: f64, apart_rad: f64) -> Vec<Candidate> {

@@ -50,12 +50,20 @@ pub(crate) fn area_normal([a, b, c]: &[Point3<f32>; 3]) -> Vector3<f32> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use proptest::test_runner::{Config, RngSeed};
+
+    fn config() -> Config {
+        let rng_seed = RngSeed::Fixed(7);
+        Config { rng_seed, failure_persistence: None, ..Config::default() }
+    }
 
     fn point() -> impl Strategy<Value = Point3<f32>> {
         prop::array::uniform3(-1.0f32..1.0).prop_map(|[x, y, z]| Point3::new(x, y, z))
     }
 
     proptest! {
+        #![proptest_config(config())]
+
         #[test]
         fn no_sampled_point_of_the_triangle_is_nearer(
             p in point(), triangle in prop::array::uniform3(point()),
@@ -69,6 +77,25 @@ mod tests {
                     prop_assert!(nearest <= (q - p).norm() + 1e-5);
                 }
             }
+        }
+
+        #[test]
+        fn the_nearest_point_is_of_the_triangle_even_of_one_without_area(
+            p in point(), [a, b, c] in prop::array::uniform3(point()), flat in 0..4_usize,
+        ) {
+            let middle = nalgebra::center(&a, &b);
+            let corners = [[a, b, c], [a, b, middle], [a, a, b], [a, a, a]][flat];
+            let q = closest_point(&p, &corners).cast::<f64>();
+            let [a, b, c] = corners.map(|corner| corner.cast::<f64>());
+            // A point of the triangle parts it in three whose areas add up to its own.
+            let area = |a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>| {
+                (b - a).cross(&(c - a)).norm()
+            };
+            let parts = area(&q, &a, &b) + area(&q, &b, &c) + area(&q, &c, &a);
+            prop_assert!((parts - area(&a, &b, &c)).abs() < 1e-5);
+            let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+            let farthest = (q - a).norm().max((q - b).norm()).max((q - c).norm());
+            prop_assert!(farthest < longest + 1e-6);
         }
     }
 }

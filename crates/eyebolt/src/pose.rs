@@ -7,6 +7,8 @@ use eyebolt_registration::{Candidate, SearchView, SurfacePoint, search};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
+/// The search looks at no more configurations than this; the rest would tell it little.
+const CONFIGURATIONS: usize = 8;
 /// Points of a configuration that the search looks at.
 const SEARCH_POINTS: usize = 2000;
 /// The rim of a mask mixes arm and background, pixels.
@@ -24,7 +26,7 @@ pub fn arm_masks(session: &Session) -> Vec<Mask> {
 
 /// Candidates for `camera_from_base`, best first, from the pixels in `masks` and the kinematics
 /// alone. Configurations whose mask is too small to say anything take no part.
-pub fn start(session: &Session, masks: &[Mask], wanted: usize) -> Vec<Candidate> {
+pub fn start(session: &Session, masks: &[Mask], seed: u64, wanted: usize) -> Vec<Candidate> {
     let whole = session.has_masks();
     let pairs = session.configurations.par_iter().zip(masks);
     let views: Vec<SearchView<'_>> =
@@ -37,7 +39,7 @@ pub fn start(session: &Session, masks: &[Mask], wanted: usize) -> Vec<Candidate>
                     .then_some(SearchView { view, arm_points, surface })
             })
             .collect();
-    search(&session.arm, &views, wanted)
+    search(&session.arm, &views, seed, wanted)
 }
 
 /// Points seen at the pixels of `mask`, evenly thinned, camera frame.

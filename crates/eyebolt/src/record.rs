@@ -1,5 +1,7 @@
 //! From a recording and a robot to a session: everything is read and checked here.
 
+mod group;
+
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{
     Camera, Cloud, DepthImage, PinholeCamera, RayTable, Transform, fit_projection,
@@ -76,17 +78,37 @@ pub fn open(
     let (links, model) = shapes(arm, links, cache)?;
     let (camera, optical_from_camera) = camera_of(folder, &frames)?;
     let rays = RayTable::new(&camera);
-    let posed = frames.into_iter().zip(poses);
-    let configurations = posed
-        .map(|(frame, poses)| Configuration {
-            depth: depth_image(&frame.range, &camera, &optical_from_camera),
-            mask: frame.mask,
-            name: frame.name,
-            joints: frame.joints,
-            posture: Posture::new(&model, links.iter().filter_map(|link| poses[*link]).collect()),
+    let joints: Vec<_> = frames.iter().map(|frame| &frame.joints).collect();
+    let configurations = group::group(&joints)
+        .into_iter()
+        .map(|members| {
+            let poses = &poses[members[0]];
+            let members: Vec<&Frame> = members.iter().map(|index| &frames[*index]).collect();
+            let base_from_link = links.iter().filter_map(|link| poses[*link]).collect();
+            let posture = Posture::new(&model, base_from_link);
+            merged(&members, posture, &camera, &optical_from_camera)
         })
         .collect();
     Ok(Session { camera, rays, optical_from_camera, arm: model, configurations })
+}
+
+/// One configuration of frames with the same joints.
+fn merged(
+    frames: &[&Frame],
+    posture: Posture,
+    camera: &PinholeCamera,
+    optical_from_camera: &Transform<Camera, Camera>,
+) -> Configuration {
+    let depth = |frame: &&Frame| depth_image(&frame.range, camera, optical_from_camera);
+    let images: Vec<DepthImage> = frames.iter().map(depth).collect();
+    let masks: Vec<_> = frames.iter().map(|frame| frame.mask.clone()).collect();
+    Configuration {
+        frames: frames.iter().map(|frame| frame.name.clone()).collect(),
+        depth: group::median_depth(&images).expect("a configuration has a frame"),
+        mask: group::common_mask(&masks),
+        joints: frames[0].joints.clone(),
+        posture,
+    }
 }
 
 fn link_poses(arm: &Arm, frame: &Frame) -> Result<LinkPoses, RecordError> {

@@ -3,23 +3,28 @@
 use crate::label::{arm_points, labels_at};
 use crate::session::Session;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{RefineOptions, RefineView, Refinement, Silhouette, View};
+use eyebolt_registration::{RefineOptions, RefineView, Refinement, Silhouette, Trust, View};
 use eyebolt_render::Raster;
 use rayon::prelude::*;
 
 /// Points on surfaces that a configuration contributes.
 const POINTS: usize = 1200;
 
-/// Rounds from a start that may be centimetres off.
-pub const FROM_AFAR: &[RefineOptions] = &[
-    RefineOptions { iterations: 4, surface_scale_m: 0.06, outline_scale_px: 20.0 },
-    RefineOptions { iterations: 5, surface_scale_m: 0.03, outline_scale_px: 8.0 },
-    RefineOptions { iterations: 15, surface_scale_m: 0.02, outline_scale_px: 4.0 },
-];
+/// From a start that may be centimetres off to one that is within the reach of [`CLOSING`].
+pub const OPENING: &[RefineOptions] = &[options(4, 0.06, 20.0)];
 
-/// Rounds from a start that is right already, or nearly so.
-pub const FROM_NEARBY: &[RefineOptions] =
-    &[RefineOptions { iterations: 15, surface_scale_m: 0.02, outline_scale_px: 5.0 }];
+/// From there to the answer.
+pub const CLOSING: &[RefineOptions] = &[options(5, 0.03, 8.0), options(20, 0.02, 4.0)];
+
+/// From an answer to what it would be with less data.
+pub const LEAVE_ONE_OUT: RefineOptions = options(6, 0.02, 4.0);
+
+/// From an answer to what one kind of evidence alone would make of it.
+pub const ONE_SIDED: RefineOptions = options(8, 0.02, 4.0);
+
+const fn options(iterations: usize, surface_scale_m: f64, outline_scale_px: f64) -> RefineOptions {
+    RefineOptions { iterations, surface_scale_m, outline_scale_px, trust: Trust::Both }
+}
 
 /// Drawing buffers, one for each configuration.
 pub fn rasters(session: &Session) -> Vec<Raster> {
@@ -45,24 +50,27 @@ pub fn observe<'a>(
         .collect()
 }
 
-/// Refines `start` on `views` in `rounds`, labelling anew before each.
+/// Refines `start` on `views` in `rounds`, labelling anew before each; also returns what the last
+/// round saw.
 ///
 /// # Panics
 ///
 /// If there are no rounds.
-pub fn refine(
+pub fn refine<'a>(
     session: &Session,
-    views: &[View<'_>],
+    views: &[View<'a>],
     rasters: &mut [Raster],
     start: &Transform<Camera, Base>,
     rounds: &[RefineOptions],
-) -> Refinement {
-    let mut refinement: Option<Refinement> = None;
+) -> (Refinement, Vec<RefineView<'a>>) {
+    let mut pose = *start;
+    let mut last = None;
     for options in rounds {
-        let pose = refinement.as_ref().map_or(*start, |r| r.camera_from_base);
         let observed = observe(session, views, rasters, &pose);
-        refinement =
-            Some(eyebolt_registration::refine(&session.arm, &observed, rasters, &pose, options));
+        let refinement =
+            eyebolt_registration::refine(&session.arm, &observed, rasters, &pose, options);
+        pose = refinement.camera_from_base;
+        last = Some((refinement, observed));
     }
-    refinement.expect("at least one round")
+    last.expect("at least one round")
 }

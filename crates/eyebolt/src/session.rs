@@ -20,11 +20,11 @@ pub struct Session {
     pub configurations: Vec<Configuration>,
 }
 
-/// One arm configuration.
+/// One arm configuration, of one frame or several merged.
 #[derive(Clone, Debug)]
 pub struct Configuration {
-    /// The frame's name in the recording.
-    pub name: String,
+    /// Names of its frames in the recording; at least one.
+    pub frames: Vec<String>,
     /// What the camera saw.
     pub depth: DepthImage,
     /// The whole arm's pixels, where the recording has them.

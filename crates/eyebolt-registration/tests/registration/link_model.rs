@@ -1,0 +1,119 @@
+use crate::facets::Facets;
+use crate::shapes::{cuboid, half_flipped, moved, soup, star};
+use crate::strategies::{config, isometry};
+use eyebolt_registration::LinkModel;
+use eyebolt_robot::TriangleMesh;
+use nalgebra::{Isometry3, Point3, Vector3};
+use proptest::prelude::*;
+
+/// Diagonal of the cells that vertices are merged in.
+const DIAGONAL_M: f64 = 0.005 * 1.733;
+
+fn sides() -> impl Strategy<Value = [f32; 3]> {
+    [0.04..0.16_f32, 0.04..0.16_f32, 0.04..0.16_f32]
+}
+
+fn corners(mesh: &TriangleMesh) -> Vec<[Point3<f64>; 3]> {
+    let corner = |i: u32| mesh.vertices[i as usize].cast();
+    mesh.triangles.iter().map(|t| t.map(corner)).collect()
+}
+
+proptest! {
+    #![proptest_config(config(12))]
+
+    #[test]
+    fn surface_points_are_on_the_box_and_face_outward(sides in sides(), pose in isometry(0.2)) {
+        let model = LinkModel::build(&half_flipped(&moved(&cuboid(sides, [0.0; 3]), &pose)));
+        for surface in &model.surface {
+            let p = pose.inverse_transform_point(&surface.point.cast());
+            let normal = pose.rotation.inverse() * surface.normal.cast::<f64>();
+            let axis = normal.iamax();
+            let apart = p[axis] * normal[axis].signum() - 0.5 * f64::from(sides[axis]);
+            prop_assert!(normal[axis].abs() > 1.0 - 1e-5, "{normal:?}");
+            prop_assert!(apart.abs() < 1e-6, "{apart}");
+            let on_face = (0..3).all(|i| p[i].abs() < 0.5 * f64::from(sides[i]) + 1e-6);
+            prop_assert!(on_face, "{p:?}");
+        }
+    }
+
+    #[test]
+    fn every_quarter_of_every_face_has_points_for_its_area(sides in sides()) {
+        let model = LinkModel::build(&cuboid(sides, [0.0; 3]));
+        let count = model.surface.len() as f64;
+        prop_assert!((count - 800.0).abs() < 4.0, "{count} points");
+        let [x, y, z] = sides;
+        let area = |axis: usize| f64::from([y * z, z * x, x * y][axis]);
+        let all: f64 = 2.0 * (0..3).map(area).sum::<f64>();
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]) {
+            let on_face: Vec<_> =
+                model.surface.iter().filter(|s| s.normal[axis] * side > 0.5).collect();
+            let share = on_face.len() as f64 / count;
+            prop_assert!((share - area(axis) / all).abs() < 0.005, "{share} of {axis}");
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            for (su, sv) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                let quarter = |s: &&&_| -> bool {
+                    let s: &eyebolt_registration::SurfacePoint = s;
+                    s.point[u] * su > 0.0 && s.point[v] * sv > 0.0
+                };
+                let share = on_face.iter().filter(quarter).count() as f64 / count;
+                prop_assert!((share - 0.25 * area(axis) / all).abs() < 0.01, "{share}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_stays_within_a_cell_of_the_surface_and_faces_outward(
+        size in 0.03..0.09_f32, bump in -0.3..0.3_f32, waves in 1.0..4.0_f32,
+    ) {
+        // Star-shaped about the origin: outward is where the origin is behind.
+        let mesh = star(4, |d| size * (1.0 + bump * (waves * d.x + d.y).sin()));
+        let model = LinkModel::build(&half_flipped(&mesh));
+        let surface = Facets::of(&mesh);
+        let drawn = Facets::of(&model.mesh);
+        for [a, b, c] in corners(&model.mesh) {
+            let middle = nalgebra::center(&nalgebra::center(&a, &b), &c);
+            let away = surface.distance(&middle);
+            prop_assert!(away < DIAGONAL_M, "{away}");
+            prop_assert!((b - a).cross(&(c - a)).dot(&a.coords) > 0.0, "turned inward at {a:?}");
+        }
+        for vertex in &mesh.vertices {
+            let away = drawn.distance(&vertex.cast());
+            prop_assert!(away < DIAGONAL_M, "{away}");
+        }
+    }
+
+    #[test]
+    fn the_same_mesh_gives_the_same_model(sides in sides(), pose in isometry(0.2)) {
+        let mesh = moved(&cuboid(sides, [0.0; 3]), &pose);
+        prop_assert_eq!(LinkModel::build(&mesh), LinkModel::build(&mesh));
+    }
+}
+
+#[test]
+fn points_on_a_ball_are_spread_over_its_octants() {
+    let model = LinkModel::build(&star(4, |_| 0.08));
+    let mut counts = [0.0; 8];
+    for surface in &model.surface {
+        let p = surface.point;
+        assert!((p.coords.norm() - 0.08).abs() < 3e-4, "{p:?}");
+        assert!(surface.normal.dot(&p.coords.normalize()) > 0.99);
+        let octant = (0..3).map(|axis| usize::from(p[axis] > 0.0) << axis).sum::<usize>();
+        counts[octant] += 1.0;
+    }
+    let all: f64 = counts.iter().sum();
+    for count in counts {
+        assert!((count / all - 0.125).abs() < 0.005, "{counts:?}");
+    }
+}
+
+#[test]
+fn a_sheet_is_drawn_from_both_sides() {
+    let corner = |u: f32, v: f32| Vector3::new(0.1 * u, 0.1 * v, 0.0);
+    let [a, b, c, d] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+    let sheet = soup(&[[a, b, c], [a, c, d]]);
+    let model = LinkModel::build(&moved(&sheet, &Isometry3::translation(0.01, 0.02, 0.031)));
+    let up = |t: &&[Point3<f64>; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).z > 0.0;
+    let drawn = corners(&model.mesh);
+    assert_eq!(drawn.iter().filter(up).count(), 2, "{drawn:?}");
+    assert_eq!(drawn.len(), 4, "{drawn:?}");
+}

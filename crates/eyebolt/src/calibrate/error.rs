@@ -1,0 +1,176 @@
+//! How far off an answer is expected to be.
+//!
+//! Three sources, each seen by another experiment: the scatter of the residuals (the sandwich
+//! covariance of the refinement), what changes when configurations are left out (jackknife), and
+//! what is wrong in every frame alike, which neither of these can see: it shows where the two kinds
+//! of evidence, surfaces and outlines, disagree.
+
+use super::Work;
+use crate::refine::{LEAVE_ONE_OUT, ONE_SIDED};
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_registration::{RefineOptions, RefineView, Refinement, Trust};
+use eyebolt_render::Raster;
+use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
+
+/// A difference between two poses, or its expected size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Distance that the centre of the workspace moves, metres.
+    pub translation_m: f64,
+    /// Angle, radians.
+    pub rotation_rad: f64,
+}
+
+/// How far off an answer is expected to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorEstimate {
+    /// Root mean square error to expect, of all sources together.
+    pub expected: Deviation,
+    /// Covariance of the answer, translation (m) then rotation (rad), in the answer's frame, as
+    /// [`Transform::retract`] has them; all sources together.
+    pub covariance: Matrix6<f64>,
+    /// What each configuration changes when it is left out, in the order of those used; `None`
+    /// with fewer than three of them.
+    pub leave_one_out: Option<Vec<Deviation>>,
+    /// Difference between the answers that surfaces alone and outlines alone would give.
+    pub disagreement: Option<Deviation>,
+    /// Centre of the workspace, base frame: where errors are measured.
+    pub workspace_in_base: Point3<f64>,
+}
+
+impl ErrorEstimate {
+    /// The largest deviation of any configuration left out.
+    pub fn worst_left_out(&self) -> Option<Deviation> {
+        let all = self.leave_one_out.as_ref()?;
+        Some(all.iter().fold(Deviation::default(), |worst, d| Deviation {
+            translation_m: worst.translation_m.max(d.translation_m),
+            rotation_rad: worst.rotation_rad.max(d.rotation_rad),
+        }))
+    }
+
+    /// Root mean square of the deviations.
+    pub fn rms_left_out(&self) -> Option<Deviation> {
+        let all = self.leave_one_out.as_ref()?;
+        let mean = |part: &dyn Fn(&Deviation) -> f64| {
+            (all.iter().map(|d| part(d).powi(2)).sum::<f64>() / all.len() as f64).sqrt()
+        };
+        Some(Deviation {
+            translation_m: mean(&|d| d.translation_m),
+            rotation_rad: mean(&|d| d.rotation_rad),
+        })
+    }
+}
+
+/// Estimates the error of `refinement`, which saw `observed` of the configurations of `work`.
+pub(crate) fn estimate(
+    work: &mut Work<'_>,
+    refinement: &Refinement,
+    observed: &[RefineView<'_>],
+) -> ErrorEstimate {
+    let pose = refinement.camera_from_base;
+    let workspace_in_base = workspace(work);
+    let mut covariance = refinement.covariance;
+    let left_out = leave_one_out(work, observed, &pose);
+    if let Some(poses) = &left_out {
+        covariance += jackknife(&pose, poses);
+    }
+    let one_sided = |trust: Trust, rasters: &mut [Raster]| {
+        let options = RefineOptions { trust, ..ONE_SIDED };
+        eyebolt_registration::refine(&work.session.arm, observed, rasters, &pose, &options)
+            .camera_from_base
+    };
+    let surfaces = one_sided(Trust::Surfaces, &mut work.rasters);
+    let outlines = one_sided(Trust::Outlines, &mut work.rasters);
+    // The answer lies between the two, and either may be the better one.
+    let half = 0.5 * surfaces.local(&outlines);
+    covariance += half * half.transpose();
+    let deviation = |other: &Transform<Camera, Base>| deviation(&pose, other, &workspace_in_base);
+    let to_optical = to_optical(work);
+    ErrorEstimate {
+        expected: expected(&covariance, &pose, &workspace_in_base),
+        covariance: to_optical * covariance * to_optical.transpose(),
+        leave_one_out: left_out.map(|poses| poses.iter().map(deviation).collect()),
+        disagreement: Some(super::error::deviation(&surfaces, &outlines, &workspace_in_base)),
+        workspace_in_base,
+    }
+}
+
+/// Middle of the arm's last links over all configurations.
+fn workspace(work: &Work<'_>) -> Point3<f64> {
+    let tips: Vec<Vector3<f64>> = work
+        .views
+        .iter()
+        .filter_map(|view| view.posture.base_from_link().last())
+        .map(|base_from_link| base_from_link.translation_m())
+        .collect();
+    Point3::from(tips.iter().sum::<Vector3<f64>>() / tips.len().max(1) as f64)
+}
+
+/// Refines from `pose` without each of the views in turn; `None` with fewer than three.
+fn leave_one_out(
+    work: &mut Work<'_>,
+    observed: &[RefineView<'_>],
+    pose: &Transform<Camera, Base>,
+) -> Option<Vec<Transform<Camera, Base>>> {
+    if observed.len() < 3 {
+        return None;
+    }
+    let arm = &work.session.arm;
+    let poses = (0..observed.len()).map(|left_out| {
+        let kept: Vec<RefineView<'_>> = observed
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| *index != left_out)
+            .map(|(_, view)| view.clone())
+            .collect();
+        let rasters = &mut work.rasters[..kept.len()];
+        eyebolt_registration::refine(arm, &kept, rasters, pose, &LEAVE_ONE_OUT).camera_from_base
+    });
+    Some(poses.collect())
+}
+
+/// Jackknife covariance (Efron and Stein, Annals of Statistics 1981) of an answer from what it is
+/// with each part left out.
+fn jackknife(pose: &Transform<Camera, Base>, left_out: &[Transform<Camera, Base>]) -> Matrix6<f64> {
+    let count = left_out.len() as f64;
+    let deltas: Vec<Vector6<f64>> = left_out.iter().map(|other| pose.local(other)).collect();
+    let mean = deltas.iter().sum::<Vector6<f64>>() / count;
+    let scatter = deltas.iter().map(|d| (d - mean) * (d - mean).transpose());
+    scatter.sum::<Matrix6<f64>>() * ((count - 1.0) / count)
+}
+
+fn deviation(
+    a: &Transform<Camera, Base>,
+    b: &Transform<Camera, Base>,
+    at_in_base: &Point3<f64>,
+) -> Deviation {
+    Deviation {
+        translation_m: (a.point(at_in_base) - b.point(at_in_base)).norm(),
+        rotation_rad: a.rotation().angle_to(&b.rotation()),
+    }
+}
+
+/// Root mean square of the errors that `covariance` lets one expect.
+fn expected(
+    covariance: &Matrix6<f64>,
+    pose: &Transform<Camera, Base>,
+    at_in_base: &Point3<f64>,
+) -> Deviation {
+    // A point of the base moves by the translation and by the rotation about the base's origin.
+    let arm = pose.direction(&at_in_base.coords);
+    let mut by_pose = nalgebra::SMatrix::<f64, 3, 6>::zeros();
+    by_pose.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity());
+    by_pose.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
+    let point = by_pose * covariance * by_pose.transpose();
+    let rotation = covariance.fixed_view::<3, 3>(3, 3).trace();
+    Deviation { translation_m: point.trace().sqrt(), rotation_rad: rotation.sqrt() }
+}
+
+/// Turns covariances from the session's camera frame to the optical one.
+fn to_optical(work: &Work<'_>) -> Matrix6<f64> {
+    let turn = work.session.optical_from_camera.rotation().to_rotation_matrix();
+    let mut both = Matrix6::zeros();
+    both.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
+    both.fixed_view_mut::<3, 3>(3, 3).copy_from(turn.matrix());
+    both
+}

@@ -1,0 +1,53 @@
+//! Which of the search's candidates it is.
+
+use super::{Agreement, Work};
+use crate::refine::{OPENING, refine};
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_registration::Candidate;
+
+/// The candidate that explains the views best.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    pub camera_from_base: Transform<Camera, Base>,
+    /// How much less another pose explains, if there is one that is clearly another: share of
+    /// pixels, contradicted and unexplained, beyond the best's.
+    pub rival: Option<f64>,
+}
+
+/// Poses nearer to each other than this are one.
+const SAME_M: f64 = 0.04;
+const SAME_RAD: f64 = 0.05;
+
+/// A candidate that the search scores this many times worse than the best cannot be the answer.
+const HOPELESS: f64 = 2.0;
+
+/// Refines each hopeful candidate a little and takes the one that the pixels contradict least and
+/// that explains most of them.
+pub(crate) fn choose(work: &mut Work<'_>, candidates: &[Candidate]) -> Option<Choice> {
+    if work.views.is_empty() {
+        return None;
+    }
+    let hopeful = candidates.first()?.score() * HOPELESS;
+    let mut scored: Vec<(f64, Transform<Camera, Base>)> = candidates
+        .iter()
+        .filter(|candidate| candidate.score() <= hopeful)
+        .map(|candidate| {
+            let start = &candidate.camera_from_base;
+            let (short, _) = refine(work.session, &work.views, &mut work.rasters, start, OPENING);
+            let all = total(&work.agreement(&short.camera_from_base));
+            (all.contradicted_share() + all.unexplained_share(), short.camera_from_base)
+        })
+        .collect();
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (best, camera_from_base) = *scored.first()?;
+    let other = scored.iter().find(|(_, pose)| {
+        let (metres, radians) = pose.distance_to(&camera_from_base);
+        metres > SAME_M || radians > SAME_RAD
+    });
+    Some(Choice { camera_from_base, rival: other.map(|(score, _)| score - best) })
+}
+
+/// All views' counts together.
+pub(crate) fn total(views: &[Agreement]) -> Agreement {
+    views.iter().fold(Agreement::default(), |sum, view| sum.plus(view))
+}

@@ -1,0 +1,88 @@
+//! A posed arm over what the camera saw.
+
+use super::legend::{self, Line};
+use super::picture::{Picture, Rgb};
+use super::{backdrop, residual};
+use crate::session::{Configuration, Session};
+use eyebolt_geometry::{Base, Camera, Mask, PinholeCamera, Transform};
+use eyebolt_recording::ColorImage;
+use eyebolt_render::{ContourPoint, Raster, contour};
+
+const OUTLINE: Rgb = [40, 255, 70];
+const MASK_EDGE: Rgb = [255, 225, 0];
+/// Opacity of edges of one part of the arm before another.
+const INNER: f32 = 0.45;
+
+/// One configuration with the arm posed at `camera_from_base` drawn over it, of the camera's size.
+///
+/// Behind everything lies `color`, stretched where its size is another, or else the depth image
+/// (near is bright). On it the distances of what was seen from the model, blue where it is nearer,
+/// red where farther, and striped where the camera saw through the model; the model's outline in
+/// green, that of the recording's mask in yellow; and a legend if there is room for it.
+/// `raster` is drawn anew.
+pub fn overlay(
+    session: &Session,
+    configuration: &Configuration,
+    raster: &mut Raster,
+    camera_from_base: &Transform<Camera, Base>,
+    color: Option<&ColorImage>,
+) -> Picture {
+    let camera = &session.camera;
+    raster.draw(camera, &configuration.posture.meshes(&session.arm, camera_from_base));
+    let mut picture = match color {
+        Some(color) => backdrop::from_color(color, camera.width(), camera.height()),
+        None => backdrop::from_depth(&configuration.depth),
+    };
+    let summary = residual::paint(&mut picture, session, configuration, raster);
+    if let Some(mask) = &configuration.mask {
+        paint_edge(&mut picture, mask);
+    }
+    paint_outline(&mut picture, raster, camera);
+    let mut lines = vec![Line { color: OUTLINE, text: "model" }];
+    if configuration.mask.is_some() {
+        lines.push(Line { color: MASK_EDGE, text: "mask" });
+    }
+    legend::paint(&mut picture, &configuration.frames, summary, &lines);
+    picture
+}
+
+/// Pixels of the mask that border on one outside it; the rim of the image is no border.
+fn paint_edge(picture: &mut Picture, mask: &Mask) {
+    let (width, set) = (mask.width() as usize, mask.as_slice());
+    let rows = set.chunks_exact(width);
+    for (v, row) in rows.enumerate() {
+        let above = v.checked_sub(1).and_then(|v| set.get(v * width..)).unwrap_or(row);
+        let below = set.get((v + 1) * width..).filter(|rest| !rest.is_empty()).unwrap_or(row);
+        for (u, inside) in row.iter().enumerate() {
+            let left = row[u.saturating_sub(1)];
+            let right = row[(u + 1).min(width - 1)];
+            if *inside && !(left && right && above[u] && below[u]) {
+                picture.blend(v * width + u, MASK_EDGE, 1.0);
+            }
+        }
+    }
+}
+
+/// The outline two pixels wide, one on either side; edges within the arm thinner and dimmer.
+fn paint_outline(picture: &mut Picture, raster: &Raster, camera: &PinholeCamera) {
+    let points = contour(raster, camera);
+    for point in points.iter().filter(|point| point.behind_m.is_some()) {
+        let [inside, _] = sides(point, raster.width());
+        picture.blend(inside, OUTLINE, INNER);
+    }
+    for point in points.iter().filter(|point| point.behind_m.is_none()) {
+        for at in sides(point, raster.width()) {
+            picture.blend(at, OUTLINE, 1.0);
+        }
+    }
+}
+
+/// Row-major pixels at a place of the contour: the surface's last and the first beyond.
+fn sides(point: &ContourPoint, width: usize) -> [usize; 2] {
+    // Between two pixels of a row the column is halved, else the row is.
+    let halved = point.pixel.map(f32::fract);
+    let step = halved.coords.component_mul(&point.outward.map(f32::signum));
+    let index =
+        |pixel: nalgebra::Point2<f32>| pixel.y.round() as usize * width + pixel.x.round() as usize;
+    [index(point.pixel - step), index(point.pixel + step)]
+}
