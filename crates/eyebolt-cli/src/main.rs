@@ -1,1 +1,47 @@
-fn main() {}
+//! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
+
+mod calibrate;
+mod output;
+mod progress;
+mod summary;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Calibrates a depth camera against a robot arm: no markers, no initial guess, nobody labelling.
+///
+/// Exit status: 0 trusted, 1 something could not be read or written, 2 wrong usage, 3 refused.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Find the pose of the camera from a recording of the arm in a few configurations
+    Calibrate(calibrate::Arguments),
+}
+
+/// How a command that ran to its end turned out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    Done,
+    Refused,
+}
+
+fn main() -> ExitCode {
+    let Arguments { command } = Arguments::parse();
+    let ending = match command {
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
+    };
+    match ending {
+        Ok(Ending::Done) => ExitCode::SUCCESS,
+        Ok(Ending::Refused) => ExitCode::from(3),
+        Err(error) => {
+            output::complain(&format!("error: {error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}

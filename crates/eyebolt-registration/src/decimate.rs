@@ -4,18 +4,16 @@
 mod constraints;
 mod quadric;
 mod surface;
+mod weld;
 #[cfg(test)]
 mod tests;
 
 use constraints::Constraints;
 use eyebolt_robot::TriangleMesh;
 use nalgebra::Point3;
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use surface::Surface;
-
-/// A sweep leaves out what a neighbour forbids at its turn; later sweeps find little more.
-const SWEEPS: usize = 3;
 
 /// `mesh` with as few triangles as edge collapses leave while no vertex is farther than
 /// `tolerance_m` (root mean square over the area that it stands for) from the surface that was
@@ -25,45 +23,31 @@ const SWEEPS: usize = 3;
 /// and all but the first on the same corners go; open rims and seams of parts stay where they are
 /// within the tolerance. The same mesh gives the same bytes.
 pub(crate) fn simplified(mesh: &TriangleMesh, tolerance_m: f32) -> TriangleMesh {
-    let mut surface = Surface::welded(mesh);
+    let mut surface = Surface::of(mesh);
     let mut constraints = Constraints::of(&surface, f64::from(tolerance_m));
-    for _ in 0..SWEEPS {
-        if sweep(&mut surface, &mut constraints) == 0 {
-            break;
-        }
-    }
-    surface.into_mesh()
-}
-
-/// Collapses edges, the least error first, until no edge may; how many there were.
-fn sweep(surface: &mut Surface, constraints: &mut Constraints) -> usize {
     let mut stamps = vec![0; surface.points.len()];
-    let mut queue = BinaryHeap::new();
-    for [u, v] in surface.edges() {
-        queue.extend(Collapse::between(surface, constraints, &stamps, u, v).map(Reverse));
-    }
-    let mut collapses = 0;
-    while let Some(Reverse(collapse)) = queue.pop() {
-        let Collapse { ends: [kept, gone], stamps: then, target, .. } = collapse;
-        if [stamps[kept as usize], stamps[gone as usize]] != then {
-            continue;
-        }
-        let rim = constraints.both_on_rims(kept, gone);
-        let sound = surface.stays_sound(kept, gone, rim, &target);
-        if !sound || !constraints.stay_near(kept, gone, &target) {
+    let edges = surface.edges();
+    let planned = |[u, v]: [u32; 2]| Collapse::planned(&surface, &constraints, &stamps, u, v);
+    let mut queue: BinaryHeap<Collapse> = edges.into_iter().filter_map(planned).collect();
+    while let Some(Collapse { ends: [kept, gone], stamps: then, target, .. }) = queue.pop() {
+        // What a neighbour forbids now is tried again only once an end has moved: trying all
+        // again at the end finds one collapse in a thousand.
+        let is_void = [stamps[kept as usize], stamps[gone as usize]] != then;
+        if is_void
+            || !constraints.keep_near(kept, gone, &target)
+            || !surface.stays_sound(kept, gone, constraints.both_on_rims(kept, gone), &target)
+        {
             continue;
         }
         surface.collapse(kept, gone, target);
         constraints.merge(kept, gone);
         stamps[kept as usize] += 1;
         stamps[gone as usize] += 1;
-        collapses += 1;
-        for neighbour in surface.ring(kept) {
-            let next = Collapse::between(surface, constraints, &stamps, kept, neighbour);
-            queue.extend(next.map(Reverse));
+        for other in surface.ring(kept) {
+            queue.extend(Collapse::planned(&surface, &constraints, &stamps, kept, other));
         }
     }
-    collapses
+    surface.into_mesh()
 }
 
 /// An edge that may become a point.
@@ -78,7 +62,7 @@ struct Collapse {
 
 impl Collapse {
     /// The collapse of the edge between `u` and `v`, if it stays within the tolerance.
-    fn between(
+    fn planned(
         surface: &Surface,
         constraints: &Constraints,
         stamps: &[u32],
@@ -93,9 +77,10 @@ impl Collapse {
 }
 
 impl Ord for Collapse {
+    /// The greatest leaves a heap first: that of the least error, then of the lowest ends.
     fn cmp(&self, other: &Self) -> Ordering {
-        let by_error = self.error_m.total_cmp(&other.error_m);
-        by_error.then(self.ends.cmp(&other.ends)).then(self.stamps.cmp(&other.stamps))
+        let by_error = other.error_m.total_cmp(&self.error_m);
+        by_error.then(other.ends.cmp(&self.ends)).then(other.stamps.cmp(&self.stamps))
     }
 }
 

@@ -31,7 +31,7 @@ pub struct DistanceSample {
 impl DistanceField {
     /// The field of `mesh` with the given grid spacing, reaching `margin_m` beyond its box.
     ///
-    /// Takes seconds for a detailed mesh: see [`crate::FieldCache`].
+    /// Takes seconds for a detailed mesh: see [`crate::LinkCache`].
     pub fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32) -> Self {
         distance_build::build(mesh, voxel_m, margin_m)
     }
@@ -75,8 +75,8 @@ impl DistanceField {
 
     /// Distance and gradient at `point` (link frame, metres), anywhere.
     ///
-    /// Beyond the grid the distance to the grid's box is added: an underestimate by no more than
-    /// the depth of the box, which keeps growing with the true distance.
+    /// Beyond the grid the distance to the grid's box is added: never less than the true distance,
+    /// and over by no more than the distance at the box, so it keeps growing.
     pub fn sample(&self, point: &Point3<f32>) -> DistanceSample {
         let inverse = 1.0 / self.voxel_m;
         let mut base = [0usize; 3];

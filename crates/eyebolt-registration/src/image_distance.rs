@@ -3,6 +3,9 @@
 /// Distance in pixels from each pixel of a `width` x `height` image to the nearest one of `set`
 /// (Felzenszwalb and Huttenlocher, *Theory of Computing*, 2012); infinite if there is none.
 pub(crate) fn distance_to(set: &[bool], width: usize, height: usize) -> Vec<f32> {
+    if width == 0 {
+        return Vec::new();
+    }
     let mut squared: Vec<f32> = set.iter().map(|s| if *s { 0.0 } else { f32::INFINITY }).collect();
     // Columns first as a running count, then rows as a lower envelope of parabolas.
     for forward in [true, false] {

@@ -3,18 +3,19 @@
 
 mod arm;
 mod cache;
+mod decimate;
 mod distance_build;
 mod distance_field;
 mod factors;
 mod image_distance;
 mod link_model;
 mod normal_equations;
+mod outward;
 mod refine;
 mod robust;
 mod rotations;
 mod search;
 mod silhouette;
-mod simplify;
 mod surface_sample;
 mod triangle;
 mod view;

@@ -1,7 +1,8 @@
 //! What registration needs to know of one link.
 
+use crate::decimate::simplified;
 use crate::distance_field::DistanceField;
-use crate::simplify::{outward, simplified};
+use crate::outward::outward;
 use crate::surface_sample::{SurfacePoint, sample_surface};
 use eyebolt_robot::TriangleMesh;
 
@@ -12,7 +13,7 @@ pub struct LinkModel {
     pub field: DistanceField,
     /// Points spread evenly over the outside.
     pub surface: Vec<SurfacePoint>,
-    /// The outside of the mesh for drawing, simplified to about five millimetres; triangles run
+    /// The outside of the mesh for drawing, simplified to about half a millimetre; triangles run
     /// counter-clockwise as seen from outside.
     pub mesh: TriangleMesh,
 }
@@ -22,8 +23,8 @@ pub struct LinkModel {
 const VOXEL_M: f32 = 0.005;
 /// How far the distance field reaches beyond the link.
 const MARGIN_M: f32 = 0.06;
-/// Size of the cells that vertices are merged in for drawing.
-const SIMPLIFY_M: f32 = 0.005;
+/// How far simplifying may move the surface that is drawn: less than a depth camera's noise.
+const SIMPLIFY_M: f32 = 0.0004;
 const SURFACE_POINTS: usize = 800;
 
 impl LinkModel {

@@ -125,6 +125,9 @@ const OUTLINE_PATCH_PX: f64 = 8.0;
 const DEPTH_SCALE_PRIOR: f64 = 0.01;
 /// Prior deviation of the outline's excess, pixels.
 const OUTLINE_PRIOR_PX: f64 = 1.0;
+/// Of the information scaled to a diagonal of ones: between what rounding leaves of nothing, 1e-15,
+/// and what three points on a surface tell.
+const LEAST_EIGENVALUE: f64 = 1e-10;
 const LEAST_SURFACE_SIGMA_M: f64 = 0.001;
 const LEAST_OUTLINE_SIGMA_PX: f64 = 0.7;
 /// Contour points looked at in a view.
@@ -327,6 +330,16 @@ fn summarise(state: &State, evidence: &[Evidence], scales: &Scales, trust: Trust
     }
 }
 
+/// Whether `information` is of full rank. Rounding, and the damping of the steps, make one that is
+/// not look regular.
+fn determines_all(information: &SMatrix<f64, UNKNOWNS, UNKNOWNS>) -> bool {
+    let scale = information.diagonal().map(|d| d.sqrt().recip());
+    let scaled = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::from_fn(|i, j| {
+        information[(i, j)] * scale[i] * scale[j]
+    });
+    scaled.iter().all(|v| v.is_finite()) && scaled.symmetric_eigenvalues().min() > LEAST_EIGENVALUE
+}
+
 /// Covariance that does not trust the noise model: every link in every view is one patch whose
 /// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986).
 fn sandwich(
@@ -334,6 +347,9 @@ fn sandwich(
     weighing: &Weighing,
     sum: &NormalEquations<UNKNOWNS>,
 ) -> Option<Matrix6<f64>> {
+    if !determines_all(&sum.information) {
+        return None;
+    }
     let bread = sum.information.try_inverse()?;
     let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
     for view in evidence {

@@ -17,6 +17,9 @@ pub struct SurfacePoint {
 /// Farther than this from the field's zero, a point lies on something inside the link.
 const OUTSIDE_M: f32 = 0.002;
 
+/// How far to either side of a triangle its outside is looked for, metres.
+const PROBE_M: f32 = 0.006;
+
 /// About `count` points, each standing for the same area: no chance, so the same every time.
 pub(crate) fn sample_surface(
     mesh: &TriangleMesh,
@@ -64,7 +67,8 @@ fn on_triangle(
     }
     let point = a + (b - a) * u + (c - a) * v;
     let flat = area_normal(&[*a, *b, *c]).try_normalize(1e-20)?;
-    let outward = field.sample(&point).gradient;
-    let normal = if flat.dot(&outward) < 0.0 { -flat } else { flat };
+    // Beside an edge the gradient may point anywhere: what lies off either face tells.
+    let side = |reach: f32| field.sample(&(point + flat * reach)).distance_m;
+    let normal = if side(PROBE_M) < side(-PROBE_M) { -flat } else { flat };
     Some(SurfacePoint { point, normal })
 }

@@ -65,6 +65,20 @@ pub struct Calibration {
     pub verdict: Verdict,
 }
 
+impl Calibration {
+    /// No answer, and why.
+    pub fn without_pose(verdict: Verdict) -> Self {
+        let configurations = Vec::new();
+        Self { camera_from_base: None, refinement: None, configurations, error: None, verdict }
+    }
+
+    /// How all pixels of the configurations used agree with the answer.
+    pub fn agreement(&self) -> Option<Agreement> {
+        let views: Vec<_> = self.configurations.iter().filter_map(|c| c.agreement).collect();
+        (!views.is_empty()).then(|| shortlist::total(&views))
+    }
+}
+
 /// Poses that the search hands on.
 const CANDIDATES: usize = 4;
 

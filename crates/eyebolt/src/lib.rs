@@ -1,7 +1,9 @@
 //! The stages of eyebolt.
 
+pub mod answer;
 pub mod calibrate;
 pub mod label;
+pub mod pipeline;
 pub mod pose;
 pub mod progress;
 pub mod record;

@@ -1,12 +1,11 @@
 //! From a recording and a robot to a session: everything is read and checked here.
 
+mod eye;
 mod group;
 
 use crate::session::{Configuration, Session};
-use eyebolt_geometry::{
-    Camera, Cloud, DepthImage, PinholeCamera, RayTable, Transform, fit_projection,
-};
-use eyebolt_recording::{Folder, Frame, Range, RecordingError};
+use eyebolt_geometry::RayTable;
+use eyebolt_recording::{Folder, Frame, RecordingError};
 use eyebolt_registration::{ArmLink, ArmModel, LinkCache, Posture};
 use eyebolt_robot::{
     Arm, KinematicsError, LinkPoses, MeshError, Prefer, link_fingerprint, link_mesh,
@@ -76,8 +75,7 @@ pub fn open(
         |link: &usize| poses.iter().all(|poses| poses.get(*link).is_some_and(Option::is_some));
     let links = (0..arm.robot().links.len()).filter(placed).collect();
     let (links, model) = shapes(arm, links, cache)?;
-    let (camera, optical_from_camera) = camera_of(folder, &frames)?;
-    let rays = RayTable::new(&camera);
+    let eye = eye::find(folder, &frames)?;
     let joints: Vec<_> = frames.iter().map(|frame| &frame.joints).collect();
     let configurations = group::group(&joints)
         .into_iter()
@@ -86,21 +84,21 @@ pub fn open(
             let members: Vec<&Frame> = members.iter().map(|index| &frames[*index]).collect();
             let base_from_link = links.iter().filter_map(|link| poses[*link]).collect();
             let posture = Posture::new(&model, base_from_link);
-            merged(&members, posture, &camera, &optical_from_camera)
+            merged(&members, posture, &eye)
         })
         .collect();
-    Ok(Session { camera, rays, optical_from_camera, arm: model, configurations })
+    let rays = RayTable::new(&eye.camera);
+    let eye::Eye { camera, optical_from_camera, source } = eye;
+    Ok(Session { camera, rays, optical_from_camera, source, arm: model, configurations })
 }
 
 /// One configuration of frames with the same joints.
 fn merged(
     frames: &[&Frame],
     posture: Posture,
-    camera: &PinholeCamera,
-    optical_from_camera: &Transform<Camera, Camera>,
+    eye: &eye::Eye,
 ) -> Configuration {
-    let depth = |frame: &&Frame| depth_image(&frame.range, camera, optical_from_camera);
-    let images: Vec<DepthImage> = frames.iter().map(depth).collect();
+    let images: Vec<_> = frames.iter().map(|frame| eye.depth_image(&frame.range)).collect();
     let masks: Vec<_> = frames.iter().map(|frame| frame.mask.clone()).collect();
     Configuration {
         frames: frames.iter().map(|frame| frame.name.clone()).collect(),
@@ -133,11 +131,17 @@ fn shapes(
     cache: &LinkCache,
 ) -> Result<(Vec<usize>, ArmModel), RecordError> {
     let robot = arm.robot();
+    // Links without a visual stand for clearance (the Panda's `_sc`), not for anything to be seen,
+    // unless the whole robot is described so.
+    let visible = robot.links.iter().any(|link| !link.visuals.is_empty());
     let links: Vec<(usize, ArmLink)> = links
         .into_par_iter()
         .map(|index| {
             let link = &robot.links[index];
             let failed = |source| RecordError::Mesh { link: link.name.clone(), source };
+            if visible && link.visuals.is_empty() {
+                return Ok(None);
+            }
             let prefer = Prefer::Visual;
             let Some(print) = link_fingerprint(link, prefer).map_err(failed)? else {
                 return Ok(None);
@@ -156,57 +160,4 @@ fn shapes(
     }
     let (indices, links) = links.into_iter().unzip();
     Ok((indices, ArmModel::new(links)))
-}
-
-/// The camera of the depth images to be, and how to turn its frame to the optical one.
-///
-/// Depth images have theirs. Clouds without one either tell it by their grid, or get one that
-/// looks at their middle.
-fn camera_of(
-    folder: &Folder,
-    frames: &[Frame],
-) -> Result<(PinholeCamera, Transform<Camera, Camera>), RecordError> {
-    if let Some(camera) = folder.camera() {
-        return Ok((camera.clone(), Transform::identity()));
-    }
-    let Some((frame, cloud)) = frames.iter().find_map(|frame| match &frame.range {
-        Range::Cloud(cloud) => Some((frame, cloud)),
-        Range::Depth(_) => None,
-    }) else {
-        let problem = "depth images without a camera".to_owned();
-        let frame = frames.first().map(|f| f.name.clone()).unwrap_or_default();
-        return Err(RecordError::Projection { frame, problem });
-    };
-    let fit = fit_projection(cloud).map_err(|problem| RecordError::Projection {
-        frame: frame.name.clone(),
-        problem: problem.to_string(),
-    })?;
-    let turn = fit.camera_from_cloud.inverse();
-    Ok((fit.camera, Transform::from_parts(nalgebra::Vector3::zeros(), turn)))
-}
-
-fn depth_image(
-    range: &Range,
-    camera: &PinholeCamera,
-    optical_from_camera: &Transform<Camera, Camera>,
-) -> DepthImage {
-    match range {
-        Range::Depth(image) => image.clone(),
-        Range::Cloud(cloud) => grid_depth(cloud, camera, optical_from_camera),
-    }
-}
-
-/// Depth of an organised cloud along the camera's axis, pixel by pixel; other clouds are projected.
-fn grid_depth(
-    cloud: &Cloud,
-    camera: &PinholeCamera,
-    optical_from_camera: &Transform<Camera, Camera>,
-) -> DepthImage {
-    let turned = cloud.rotated(&optical_from_camera.rotation().inverse());
-    if turned.grid() != Some((camera.width(), camera.height())) {
-        return turned.to_depth_image(camera);
-    }
-    let depth = turned.points().iter().map(|p| p.z).collect();
-    DepthImage::new(camera.width(), camera.height(), depth)
-        .expect("the cloud has the camera's size")
 }

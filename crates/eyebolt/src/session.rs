@@ -14,10 +14,26 @@ pub struct Session {
     /// Turns from the frame of `camera` to the optical frame that answers are for. Only clouds that
     /// came without a camera make these two differ.
     pub optical_from_camera: Transform<Camera, Camera>,
+    /// Where the depth images come from.
+    pub source: ImageSource,
     /// Shapes of the arm's links.
     pub arm: ArmModel,
     /// The configurations, in the order of the recording.
     pub configurations: Vec<Configuration>,
+}
+
+/// Where the depth images of a session come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ImageSource {
+    /// The recording has depth images and their camera.
+    DepthImages,
+    /// Organised clouds without a camera, whose grid tells it to this accuracy.
+    OrganisedClouds {
+        /// Root mean square distance of the points from their pixels.
+        residual_px: f64,
+    },
+    /// Clouds, drawn as a camera at their origin would see them.
+    ProjectedClouds,
 }
 
 /// One arm configuration, of one frame or several merged.

@@ -1,21 +1,21 @@
 //! What holds each vertex to the surface that was there before.
 
 use super::quadric::Quadric;
-use super::surface::Surface;
-use nalgebra::{Point3, Unit, Vector3, center};
+use super::surface::{Surface, area_normal};
+use nalgebra::{Point3, Vector3, center};
 
-/// The planes that each vertex stands for: those of the triangles that have been merged into it.
+/// The planes that each vertex stands for: those of all triangles that were merged into it.
 pub(super) struct Constraints {
     tolerance_m: f64,
-    /// Of the triangles around, weighted by area.
+    /// Planes of the triangles, weighted by area.
     faces: Vec<Quadric>,
-    /// Of the upright planes along rims. On their own, since planes that a vertex does not leave
-    /// would else hide in the mean how far it leaves the others.
+    /// Upright planes along rims. On their own, since planes that a vertex does not leave would
+    /// else hide in the mean how far it leaves the others.
     rims: Vec<Quadric>,
     on_rim: Vec<bool>,
-    /// The same triangles one by one, as indices into `planes`.
-    standing_for: Vec<Vec<u32>>,
-    planes: Vec<Option<Plane>>,
+    planes: Vec<Plane>,
+    /// The planes that each vertex stands for one by one, as indices.
+    held_by: Vec<Vec<u32>>,
 }
 
 struct Plane {
@@ -23,9 +23,9 @@ struct Plane {
     point: Point3<f64>,
 }
 
-/// How far from any one plane a vertex may be, in tolerances: a large flat face would else hide
-/// in the mean that a small knob on it was lost. On a sphere the mean is the stricter one (there
-/// the farthest plane is at 1.73 times the mean).
+/// How far from any one plane a vertex may be, in tolerances: a wide face would else hide in the
+/// mean that a small knob on it was lost. On a sphere, where the farthest plane is 1.7 times the
+/// mean away, the mean still decides.
 const FARTHEST: f64 = 2.0;
 
 impl Constraints {
@@ -36,21 +36,105 @@ impl Constraints {
             faces: vec![Quadric::default(); count],
             rims: vec![Quadric::default(); count],
             on_rim: vec![false; count],
-            standing_for: vec![Vec::new(); count],
-            planes: Vec::with_capacity(surface.triangles.len()),
+            planes: Vec::new(),
+            held_by: vec![Vec::new(); count],
         };
-        for index in 0..surface.triangles.len() as u32 {
-            constraints.add_face(surface, index);
+        for triangle in &surface.triangles {
+            let corners = triangle.map(|corner| surface.points[corner as usize]);
+            let across = area_normal(&corners);
+            // A triangle without area has no plane; its neighbours' planes hold its corners.
+            if let Some(normal) = across.try_normalize(0.0) {
+                constraints.add_face(triangle, normal, &corners, 0.5 * across.norm());
+                constraints.add_rims(surface, triangle, &normal);
+            }
         }
         constraints
     }
 
-    fn add_face(&mut self, surface: &Surface, index: u32) {
-        let triangle = surface.triangles[index as usize];
-        let corners = surface.corners(index);
-        let normal = surface::area_normal(&corners);
-        let plane = Unit::try_new_and_get(normal, 0.0);
-        self.planes.push(plane.map(|(normal, _)| Plane { normal: *normal, point: corners[0] }));
-        todo!()
+    fn add_face(
+        &mut self,
+        triangle: &[u32; 3],
+        normal: Vector3<f64>,
+        corners: &[Point3<f64>; 3],
+        area: f64,
+    ) {
+        let quadric = Quadric::plane(&normal, &corners[0], area);
+        for corner in triangle {
+            self.faces[*corner as usize] += quadric;
+            self.held_by[*corner as usize].push(self.planes.len() as u32);
+        }
+        self.planes.push(Plane { normal, point: corners[0] });
+    }
+
+    /// Stands a plane on each side of the triangle that is a rim.
+    fn add_rims(&mut self, surface: &Surface, triangle: &[u32; 3], normal: &Vector3<f64>) {
+        let [a, b, c] = *triangle;
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if !surface.is_rim(from, to) {
+                continue;
+            }
+            let [start, end] = [from, to].map(|corner| surface.points[corner as usize]);
+            let Some(upright) = (end - start).cross(normal).try_normalize(0.0) else { continue };
+            let quadric = Quadric::plane(&upright, &start, (end - start).norm_squared());
+            for corner in [from, to] {
+                self.rims[corner as usize] += quadric;
+                self.on_rim[corner as usize] = true;
+                self.held_by[corner as usize].push(self.planes.len() as u32);
+            }
+            self.planes.push(Plane { normal: upright, point: start });
+        }
+    }
+
+    /// Where the edge between `ends` is best collapsed to, and the error there, metres; `None` if
+    /// the error is beyond the tolerance everywhere.
+    pub(super) fn best_target(
+        &self,
+        ends: [u32; 2],
+        points: &[Point3<f64>; 2],
+    ) -> Option<(Point3<f64>, f64)> {
+        let [u, v] = ends.map(|end| end as usize);
+        let mut faces = self.faces[u];
+        faces += self.faces[v];
+        let mut rims = self.rims[u];
+        rims += self.rims[v];
+        let mut both = faces;
+        both += rims;
+        let error = |point: &Point3<f64>| faces.mean_square(point).max(rims.mean_square(point));
+        let middle = center(&points[0], &points[1]);
+        let best = |best: (Point3<f64>, f64), point| {
+            let square = error(&point);
+            if square < best.1 { (point, square) } else { best }
+        };
+        // An end that is exact, as a corner is, is better than an optimum near it.
+        let start = both.optimum(&middle).unwrap_or(middle);
+        let (point, square) = points.iter().copied().fold((start, error(&start)), best);
+        let error_m = square.sqrt();
+        (error_m < self.tolerance_m).then_some((point, error_m))
+    }
+
+    /// Whether a vertex at `target` is near every plane that the two vertices stand for.
+    pub(super) fn keep_near(&self, u: u32, v: u32, target: &Point3<f64>) -> bool {
+        let mut held_by = [u, v].into_iter().flat_map(|vertex| &self.held_by[vertex as usize]);
+        held_by.all(|index| {
+            let plane = &self.planes[*index as usize];
+            plane.normal.dot(&(target - plane.point)).abs() < FARTHEST * self.tolerance_m
+        })
+    }
+
+    pub(super) fn both_on_rims(&self, u: u32, v: u32) -> bool {
+        self.on_rim[u as usize] && self.on_rim[v as usize]
+    }
+
+    /// `kept` stands for what `gone` stood for, too.
+    pub(super) fn merge(&mut self, kept: u32, gone: u32) {
+        let [k, g] = [kept as usize, gone as usize];
+        let (faces, rims) = (self.faces[g], self.rims[g]);
+        self.faces[k] += faces;
+        self.rims[k] += rims;
+        self.on_rim[k] |= self.on_rim[g];
+        let moved = std::mem::take(&mut self.held_by[g]);
+        self.held_by[k].extend(moved);
+        self.held_by[k].sort_unstable();
+        self.held_by[k].dedup();
     }
 }

@@ -18,12 +18,6 @@ impl Facets {
         self.0.iter().map(|t| to_triangle(p, t)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Distance, negative inside a closed outward surface.
-    pub fn signed_distance(&self, p: &Point3<f64>) -> f64 {
-        let sign = if self.is_inside(p) { -1.0 } else { 1.0 };
-        sign * self.distance(p)
-    }
-
     /// Whether a closed surface goes around `p` (van Oosterom and Strackee, 1983).
     pub fn is_inside(&self, p: &Point3<f64>) -> bool {
         let angles = self.0.iter().map(|corners| {

@@ -107,7 +107,7 @@ fn points_on_a_ball_are_spread_over_its_octants() {
 }
 
 #[test]
-fn a_sheet_is_drawn_from_both_sides() {
+fn a_sheet_is_drawn_from_its_front() {
     let corner = |u: f32, v: f32| Vector3::new(0.1 * u, 0.1 * v, 0.0);
     let [a, b, c, d] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
     let sheet = soup(&[[a, b, c], [a, c, d]]);
@@ -115,5 +115,4 @@ fn a_sheet_is_drawn_from_both_sides() {
     let up = |t: &&[Point3<f64>; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).z > 0.0;
     let drawn = corners(&model.mesh);
     assert_eq!(drawn.iter().filter(up).count(), 2, "{drawn:?}");
-    assert_eq!(drawn.len(), 4, "{drawn:?}");
 }

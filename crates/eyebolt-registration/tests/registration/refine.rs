@@ -95,7 +95,7 @@ fn surfaces_and_outlines_agree_where_there_is_no_noise() {
 
 #[test]
 fn a_plate_beside_the_arm_that_is_marked_as_arm_does_little_harm() {
-    let plate = cuboid([0.14, 0.12, 0.005], [0.16, 0.06, 0.32]);
+    let plate = cuboid([0.005, 0.12, 0.14], [0.06, -0.15, 0.45]);
     let scenes = scenes(&truth(), Some(&plate));
     let views = observed(&scenes);
     let clean = crate::synthetic_arm::scenes(&truth(), None);
@@ -171,4 +171,17 @@ fn a_single_point_does_not_determine_a_pose() {
     views[0].arm_points = scenes[0].points(3, 2)[..1].to_vec();
     let outcome = refined(&views, &truth(), Trust::Both);
     assert_eq!(outcome.stop, StopReason::Underdetermined);
+}
+
+#[test]
+fn zz_measure() {
+    let scenes = scenes(&truth(), None);
+    let views = observed(&scenes);
+    for trust in [Trust::Both, Trust::Surfaces, Trust::Outlines] {
+        for start in starts() {
+            let o = refined(&views, &start, trust);
+            let d = truth().local(&o.camera_from_base);
+            eprintln!("{trust:?} {:?} it {} {:?} local {:.2?} mm {:.4?} deg scale {:.5} out {:.3} sig {:.5} {:.3} cov {:.5?}", error(&o.camera_from_base), o.iterations, o.stop, (d.fixed_rows::<3>(0)*1e3).as_slice(), (d.fixed_rows::<3>(3)*57.3).as_slice(), o.depth_scale, o.outline_px, o.surface_sigma_m, o.outline_sigma_px, o.covariance.diagonal().map(f64::sqrt).as_slice());
+        }
+    }
 }

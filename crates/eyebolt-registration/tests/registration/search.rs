@@ -55,7 +55,7 @@ proptest! {
     #[test]
     fn the_best_candidate_is_near_the_truth(truth in truth()) {
         let scenes = scenes(&truth, None);
-        let found = search(&ARM, &views(&scenes), 3, 1);
+        let found = search(&ARM, &views(&scenes), 1, 3);
         let (metres, degrees) = error(&truth, &found[0]);
         prop_assert!(metres < 0.05 && degrees < 10.0, "{metres} m, {degrees} degrees");
         prop_assert!(found.is_sorted_by(|a, b| a.score() <= b.score()));
@@ -74,7 +74,7 @@ fn one_thread_or_two_give_the_same_bytes() {
     let scenes = scenes(&truth, None);
     let views = views(&scenes);
     let found = [1, 2].map(|threads| {
-        let found = on_threads(threads, || search(&ARM, &views, 6, 5));
+        let found = on_threads(threads, || search(&ARM, &views, 5, 6));
         let bits = |c: &Candidate| -> Vec<u64> {
             let matrix = c.camera_from_base.matrix();
             let scores = [c.distance_m, c.contradicted];
@@ -88,15 +88,15 @@ fn one_thread_or_two_give_the_same_bytes() {
 
 #[test]
 fn no_views_or_empty_views_give_no_candidates() {
-    assert!(search(&ARM, &[], 3, 1).is_empty());
+    assert!(search(&ARM, &[], 1, 3).is_empty());
     let truth = looking(Vector3::new(1.2, 0.0, 0.6), Vector3::new(0.0, 0.0, 0.4), 0.0);
     let scenes = scenes(&truth, None);
     let mut without_points = views(&scenes);
     without_points[2].arm_points.clear();
-    assert!(search(&ARM, &without_points, 3, 1).is_empty());
+    assert!(search(&ARM, &without_points, 1, 3).is_empty());
     let mut without_surface = views(&scenes);
     without_surface[0].surface.clear();
-    assert!(search(&ARM, &without_surface, 3, 1).is_empty());
-    assert!(search(&ARM, &views(&scenes)[..1], 0, 1).is_empty());
+    assert!(search(&ARM, &without_surface, 1, 3).is_empty());
+    assert!(search(&ARM, &views(&scenes)[..1], 1, 0).is_empty());
     assert_eq!(POSTURES.len(), scenes.len());
 }

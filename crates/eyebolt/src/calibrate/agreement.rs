@@ -20,6 +20,10 @@ pub struct Agreement {
     pub explained: usize,
     /// Pixels known to be the arm that do not.
     pub unexplained: usize,
+    /// Pixels of both the posed arm and the mask that the recording has.
+    pub overlap: usize,
+    /// Pixels of either.
+    pub union: usize,
 }
 
 /// Every how many pixels of a mask one is looked at, along rows and columns.
@@ -36,6 +40,12 @@ impl Agreement {
         share(self.unexplained, self.explained)
     }
 
+    /// Intersection over union of the posed arm's silhouette and the masks of the recording; `None`
+    /// without masks.
+    pub fn silhouette_iou(&self) -> Option<f64> {
+        (self.union > 0).then(|| self.overlap as f64 / self.union as f64)
+    }
+
     /// All counts added up.
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -44,6 +54,8 @@ impl Agreement {
             unknown: self.unknown + other.unknown,
             explained: self.explained + other.explained,
             unexplained: self.unexplained + other.unexplained,
+            overlap: self.overlap + other.overlap,
+            union: self.union + other.union,
         }
     }
 }
@@ -69,6 +81,11 @@ pub fn agreement(
         raster.draw(view.camera, &view.posture.meshes(&session.arm, camera_from_base));
         let mut counts = model_pixels(view, raster);
         (counts.explained, counts.unexplained) = arm_pixels(session, view, mask, camera_from_base);
+        if let Some(mask) = view.mask {
+            let drawn = raster.pixels().count();
+            counts.overlap = raster.pixels().filter(|at| mask.as_slice()[*at]).count();
+            counts.union = drawn + mask.count() - counts.overlap;
+        }
         counts
     })
     .collect()

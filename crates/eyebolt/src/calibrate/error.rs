@@ -33,7 +33,7 @@ pub struct ErrorEstimate {
     /// with fewer than three of them.
     pub leave_one_out: Option<Vec<Deviation>>,
     /// Difference between the answers that surfaces alone and outlines alone would give.
-    pub disagreement: Option<Deviation>,
+    pub disagreement: Deviation,
     /// Centre of the workspace, base frame: where errors are measured.
     pub workspace_in_base: Point3<f64>,
 }
@@ -84,13 +84,13 @@ pub(crate) fn estimate(
     // The answer lies between the two, and either may be the better one.
     let half = 0.5 * surfaces.local(&outlines);
     covariance += half * half.transpose();
-    let deviation = |other: &Transform<Camera, Base>| deviation(&pose, other, &workspace_in_base);
+    let deviation = |other: &Transform<Camera, Base>| between(&pose, other, &workspace_in_base);
     let to_optical = to_optical(work);
     ErrorEstimate {
         expected: expected(&covariance, &pose, &workspace_in_base),
         covariance: to_optical * covariance * to_optical.transpose(),
         leave_one_out: left_out.map(|poses| poses.iter().map(deviation).collect()),
-        disagreement: Some(super::error::deviation(&surfaces, &outlines, &workspace_in_base)),
+        disagreement: between(&surfaces, &outlines, &workspace_in_base),
         workspace_in_base,
     }
 }
@@ -139,7 +139,7 @@ fn jackknife(pose: &Transform<Camera, Base>, left_out: &[Transform<Camera, Base>
     scatter.sum::<Matrix6<f64>>() * ((count - 1.0) / count)
 }
 
-fn deviation(
+fn between(
     a: &Transform<Camera, Base>,
     b: &Transform<Camera, Base>,
     at_in_base: &Point3<f64>,

@@ -83,7 +83,7 @@ pub(super) fn shade(residual_mm: f32) -> (Rgb, f32) {
 /// Stripes, so that nobody takes it for a distance.
 pub(super) fn through_opacity(at: usize, width: usize) -> f32 {
     let (u, v) = (at % width, at / width);
-    if (u + v) / STRIPE_PX % 2 == 0 { 0.65 } else { 0.12 }
+    if ((u + v) / STRIPE_PX).is_multiple_of(2) { 0.65 } else { 0.12 }
 }
 
 /// The middle one of some finite numbers, the upper one of two.

@@ -1,0 +1,91 @@
+//! Files that appear whole or not at all, and the only places that print.
+
+use anyhow::{Context, Result, bail};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Says something on standard output. A reader that has gone away is no error.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// Says something on standard error.
+pub fn complain(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Where a calibration goes, checked before any work is done.
+#[derive(Debug)]
+pub struct Destination {
+    trusted: PathBuf,
+    rejected: PathBuf,
+    force: bool,
+}
+
+impl Destination {
+    /// For `path`, whose rejected sibling is `*.rejected.json`.
+    pub fn new(path: &Path, force: bool) -> Result<Self> {
+        let Some(stem) = path.file_stem() else {
+            bail!("{}: --output: not the name of a file. Give one, such as calibration.json", path.display());
+        };
+        let mut name = stem.to_owned();
+        name.push(".rejected.json");
+        let destination =
+            Self { trusted: path.to_owned(), rejected: path.with_file_name(name), force };
+        for file in [&destination.trusted, &destination.rejected] {
+            refuse_existing(file, force)?;
+        }
+        let folder = folder_of(path);
+        if !folder.is_dir() {
+            bail!("{}: --output: no such folder. Make it first", folder.display());
+        }
+        // Better told now than after the work.
+        tempfile::NamedTempFile::new_in(folder)
+            .with_context(|| format!("{}: --output: cannot write here", folder.display()))?;
+        Ok(destination)
+    }
+
+    /// Writes a calibration where its verdict belongs; returns where that is.
+    pub fn write(&self, trusted: bool, bytes: &[u8]) -> Result<PathBuf> {
+        let path = if trusted { &self.trusted } else { &self.rejected };
+        write_whole(path, bytes, self.force)?;
+        Ok(path.clone())
+    }
+}
+
+fn refuse_existing(path: &Path, force: bool) -> Result<()> {
+    if !force && path.exists() {
+        bail!("{}: the file exists. Give --force to replace it, or another name", path.display());
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Writes beside `path`, then renames: whoever looks sees the old file or the new one, whole.
+pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<()> {
+    refuse_existing(path, force)?;
+    let folder = folder_of(path);
+    let write = || -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        let mut file = tempfile::Builder::new().permissions(readable()).tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().with_context(|| format!("{}: cannot write", path.display()))
+}
+
+/// Temporary files are private by default; results are not.
+#[cfg(unix)]
+fn readable() -> std::fs::Permissions {
+    std::os::unix::fs::PermissionsExt::from_mode(0o644)
+}
+
+#[cfg(not(unix))]
+fn readable() -> std::fs::Permissions {
+    std::fs::metadata(".").map_or_else(|_| unreachable!("the working folder"), |m| m.permissions())
+}

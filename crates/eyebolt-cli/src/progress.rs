@@ -1,0 +1,58 @@
+//! What a person sees while a command works, and how long each stage took.
+
+use eyebolt::progress::{Progress, Step};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// A progress bar on standard error (nothing if that is not a terminal) that keeps time.
+pub struct Bar {
+    bar: ProgressBar,
+    clock: RefCell<Clock>,
+}
+
+struct Clock {
+    step: &'static str,
+    since: Instant,
+    spent: BTreeMap<String, f64>,
+}
+
+impl Bar {
+    /// Starts the clock; the time up to the first step is called `open`.
+    pub fn new() -> Self {
+        let bar = ProgressBar::new(Step::ALL.len() as u64);
+        let style = ProgressStyle::with_template("{bar:24} {msg} {elapsed}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.enable_steady_tick(Duration::from_millis(100));
+        let clock = Clock { step: "open", since: Instant::now(), spent: BTreeMap::new() };
+        Self { bar, clock: RefCell::new(clock) }
+    }
+
+    /// Clears the bar; milliseconds spent on each step and in `total`.
+    pub fn finish(&self) -> BTreeMap<String, f64> {
+        self.bar.finish_and_clear();
+        let mut clock = self.clock.borrow_mut();
+        clock.turn("total");
+        let mut spent = std::mem::take(&mut clock.spent);
+        spent.insert("total".to_owned(), spent.values().sum());
+        spent
+    }
+}
+
+impl Clock {
+    fn turn(&mut self, step: &'static str) {
+        let now = Instant::now();
+        let spent = self.spent.entry(self.step.to_owned()).or_default();
+        *spent += 1e3 * (now - self.since).as_secs_f64();
+        (self.step, self.since) = (step, now);
+    }
+}
+
+impl Progress for Bar {
+    fn begin(&self, step: Step) {
+        self.clock.borrow_mut().turn(step.name());
+        self.bar.inc(1);
+        self.bar.set_message(step.name());
+    }
+}

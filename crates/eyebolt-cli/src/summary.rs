@@ -1,0 +1,71 @@
+//! The result for a person to read.
+
+use eyebolt::answer::{Answer, FrameOutcome, Pose, Size};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// The summary of `answer`, written to `path`.
+pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = verdict(&mut text, answer);
+    let _ = evidence(&mut text, answer);
+    for frame in &answer.configurations {
+        let _ = writeln!(text, "  {}", frame_line(frame));
+    }
+    let _ = write!(text, "\nwritten to {}", path.display());
+    if let (Some(first), Some(folder)) = (pictures.first(), pictures.first().and_then(|p| p.parent())) {
+        let _ = match pictures.len() {
+            1 => write!(text, "\npicture in {}", first.display()),
+            count => write!(text, "\n{count} pictures in {}", folder.display()),
+        };
+    }
+    text
+}
+
+fn verdict(text: &mut String, answer: &Answer) -> std::fmt::Result {
+    let used = answer.configurations.iter().filter(|frame| frame.used).count();
+    writeln!(text, "{} ({used} of {} frames used)", answer.verdict.to_uppercase(), answer.configurations.len())?;
+    for reason in &answer.reasons {
+        writeln!(text, "  - {reason}")?;
+    }
+    let trusted = answer.reasons.is_empty();
+    let camera = answer.frames.camera.as_deref().unwrap_or("depth optical frame");
+    if let Some(pose) = answer.base_from_camera.as_ref().filter(|_| trusted) {
+        writeln!(text, "\nthe camera ({camera}) in {}:", answer.frames.base)?;
+        write_pose(text, pose)?;
+    }
+    Ok(())
+}
+
+fn write_pose(text: &mut String, pose: &Pose) -> std::fmt::Result {
+    let [x, y, z] = pose.translation_m;
+    let [qx, qy, qz, qw] = pose.rotation_xyzw;
+    writeln!(text, "  translation_m  {x:>9.5} {y:>9.5} {z:>9.5}")?;
+    writeln!(text, "  rotation_xyzw  {qx:>9.6} {qy:>9.6} {qz:>9.6} {qw:>9.6}")
+}
+
+fn evidence(text: &mut String, answer: &Answer) -> std::fmt::Result {
+    let mut line = |name: &str, size: Option<Size>| match size {
+        Some(size) => writeln!(
+            text,
+            "  {name:<28} {:>6.1} mm {:>6.2} degrees",
+            size.translation_mm, size.rotation_deg
+        ),
+        None => Ok(()),
+    };
+    line("expected error", answer.expected_error)?;
+    line("worst when one is left out", answer.leave_one_out.as_ref().map(|l| l.worst))?;
+    line("surfaces against outlines", answer.disagreement)?;
+    if let Some(iou) = answer.silhouette_iou {
+        writeln!(text, "  {:<28} {iou:>6.3}", "silhouette overlap (IoU)")?;
+    }
+    Ok(())
+}
+
+fn frame_line(frame: &FrameOutcome) -> String {
+    let residual = frame.residual_mm.map(|mm| format!("residual {mm:.1} mm"));
+    let reason = frame.reason.as_ref().map(|reason| format!("not used: {reason}"));
+    let parts: Vec<String> = residual.into_iter().chain(reason).collect();
+    format!("frame {:<12} {}", frame.name, parts.join(", "))
+}

@@ -1,0 +1,287 @@
+//! The calibration as the JSON that others read.
+//!
+//! Every number has its unit in its name; matrices are rows of numbers; quaternions are `xyzw` with
+//! `w >= 0`.
+
+use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
+use crate::pipeline::{Outcome, Request};
+use crate::session::{ImageSource, Session};
+use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
+use nalgebra::Matrix6;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Name and version of the form of [`Answer`].
+pub const SCHEMA: &str = "eyebolt.calibration/1";
+
+/// What a calibration file says.
+#[derive(Clone, Debug, Serialize)]
+pub struct Answer {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// Version of eyebolt that made it.
+    pub version: &'static str,
+    /// `trusted` or `refused`.
+    pub verdict: &'static str,
+    /// Why it is refused; empty if it is trusted.
+    pub reasons: Vec<String>,
+    /// Between which frames the answer runs.
+    pub frames: Frames,
+    /// Maps coordinates in the base frame to the depth optical frame; `null` if nothing was found.
+    pub camera_from_base: Option<Pose>,
+    /// The other way round: the pose of the camera in the base frame.
+    pub base_from_camera: Option<Pose>,
+    /// Error to expect, at the middle of where the end-effector was.
+    pub expected_error: Option<Size>,
+    /// Where errors are measured, base frame, metres.
+    pub workspace_in_base_m: Option<[f64; 3]>,
+    /// What changes when one configuration is left out.
+    pub leave_one_out: Option<LeaveOneOut>,
+    /// Difference between what surfaces alone and outlines alone would say.
+    pub disagreement: Option<Size>,
+    /// Covariance of `camera_from_base`: translation (m), then rotation vector (rad), both along
+    /// the camera's axes; the rotation is about the base's origin.
+    pub covariance: Option<[[f64; 6]; 6]>,
+    /// Share of the posed arm's pixels that the camera's depth (or the masks) contradicts.
+    pub contradicted_share: Option<f64>,
+    /// Share of the arm's pixels that do not lie on the posed arm.
+    pub unexplained_share: Option<f64>,
+    /// Intersection over union of the posed arm and the masks, if the recording has masks.
+    pub silhouette_iou: Option<f64>,
+    /// Relative error of the depth's scale that fits best: true depth is `1 + this` times as far.
+    pub depth_scale_error: Option<f64>,
+    /// By how many pixels the outline seen is wider than the arm's.
+    pub outline_excess_px: Option<f64>,
+    /// One for each frame of the recording.
+    pub configurations: Vec<FrameOutcome>,
+    /// What was used as image: `depth_images`, `organised_clouds`, `projected_clouds`.
+    pub image_source: Option<&'static str>,
+    /// Intrinsics of the depth images; of clouds, those that their grid tells.
+    pub intrinsics: Option<Intrinsics>,
+    /// Name of the robot in its URDF.
+    pub robot: String,
+    /// Hash of the URDF's text.
+    pub urdf_hash: String,
+    /// Whether masks were used.
+    pub masks: bool,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Milliseconds spent on each stage, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub timing_ms: Option<BTreeMap<String, f64>>,
+}
+
+/// Names of the frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct Frames {
+    /// Frame of the camera as the recording names it; the depth optical frame.
+    pub camera: Option<String>,
+    /// The base link.
+    pub base: String,
+    /// The end-effector link.
+    pub end_effector: String,
+    /// How to read the transforms.
+    pub convention: &'static str,
+}
+
+/// A rigid transform in three spellings.
+#[derive(Clone, Debug, Serialize)]
+pub struct Pose {
+    /// Metres.
+    pub translation_m: [f64; 3],
+    /// Hamilton quaternion.
+    pub rotation_xyzw: [f64; 4],
+    /// Homogeneous matrix, rows; metres.
+    pub matrix: [[f64; 4]; 4],
+}
+
+/// Size of a deviation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Size {
+    /// Millimetres.
+    pub translation_mm: f64,
+    /// Degrees.
+    pub rotation_deg: f64,
+}
+
+/// What changes when one configuration is left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct LeaveOneOut {
+    /// The largest change.
+    pub worst: Size,
+    /// Root mean square of the changes.
+    pub rms: Size,
+}
+
+/// What became of one frame.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrameOutcome {
+    /// The frame's name.
+    pub name: String,
+    /// Number of its arm configuration; frames with the same joints share one and are merged.
+    pub configuration: usize,
+    /// Whether it took part in the answer.
+    pub used: bool,
+    /// Median distance of the arm's points from the posed arm, millimetres.
+    pub residual_mm: Option<f64>,
+    /// Why it did not take part.
+    pub reason: Option<String>,
+}
+
+/// A pinhole camera.
+#[derive(Clone, Debug, Serialize)]
+pub struct Intrinsics {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Number of rows.
+    pub height: u32,
+    /// Focal lengths and principal point, pixels.
+    pub fx: f64,
+    /// See `fx`.
+    pub fy: f64,
+    /// See `fx`.
+    pub cx: f64,
+    /// See `fx`.
+    pub cy: f64,
+    /// As in ROS: `none`, `plumb_bob` or `rational_polynomial`.
+    pub distortion_model: &'static str,
+    /// Coefficients in ROS's order.
+    pub distortion: Vec<f64>,
+}
+
+impl Answer {
+    /// The answer to `request`.
+    pub fn new(request: &Request<'_>, outcome: &Outcome) -> Self {
+        let calibration = &outcome.calibration;
+        let session = outcome.session.as_ref();
+        let (verdict, reasons) = match &calibration.verdict {
+            Verdict::Trusted => ("trusted", Vec::new()),
+            Verdict::Refused(reasons) => {
+                ("refused", reasons.iter().map(ToString::to_string).collect())
+            }
+        };
+        let (error, agreement) = (calibration.error.as_ref(), calibration.agreement());
+        let refinement = calibration.refinement.as_ref();
+        let robot = request.arm.robot();
+        Self {
+            schema: SCHEMA,
+            version: env!("CARGO_PKG_VERSION"),
+            verdict,
+            reasons,
+            frames: frames(request),
+            camera_from_base: calibration.camera_from_base.as_ref().map(Pose::new),
+            base_from_camera: calibration.camera_from_base.map(|pose| Pose::new(&pose.inverse())),
+            expected_error: error.and_then(|error| Size::new(&error.expected)),
+            workspace_in_base_m: error.map(|error| error.workspace_in_base.coords.into()),
+            leave_one_out: error.and_then(leave_one_out),
+            disagreement: error.and_then(|error| Size::new(&error.disagreement)),
+            covariance: error.and_then(|error| rows(&error.covariance)),
+            contradicted_share: agreement.map(|agreement| agreement.contradicted_share()),
+            unexplained_share: agreement.map(|agreement| agreement.unexplained_share()),
+            silhouette_iou: agreement.and_then(|agreement| agreement.silhouette_iou()),
+            depth_scale_error: refinement.map(|refinement| refinement.depth_scale),
+            outline_excess_px: refinement.map(|refinement| refinement.outline_px),
+            configurations: frame_outcomes(calibration),
+            image_source: session.map(|session| source_name(&session.source)),
+            intrinsics: session.map(|session| Intrinsics::new(&session.camera)),
+            robot: robot.name.clone(),
+            urdf_hash: robot.urdf_hash().to_owned(),
+            masks: session.is_some_and(Session::has_masks),
+            seed: request.seed,
+            timing_ms: None,
+        }
+    }
+
+    /// The text of the file: indented JSON with a line break at its end.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("an answer is plain data");
+        text.push('\n');
+        text
+    }
+}
+
+fn frames(request: &Request<'_>) -> Frames {
+    Frames {
+        camera: request.recording.camera_frame_id().map(str::to_owned),
+        base: request.arm.base_name().to_owned(),
+        end_effector: request.arm.end_effector_name().to_owned(),
+        convention: "a_from_b maps coordinates in b to coordinates in a; camera is the depth \
+                     optical frame: x right, y down, z forward",
+    }
+}
+
+impl Pose {
+    fn new<To: Frame, From: Frame>(pose: &Transform<To, From>) -> Self {
+        let matrix = pose.matrix();
+        let row = |r: usize| [0, 1, 2, 3].map(|c| matrix[(r, c)]);
+        Self {
+            translation_m: pose.translation_m().into(),
+            rotation_xyzw: pose.rotation_xyzw(),
+            matrix: [0, 1, 2, 3].map(row),
+        }
+    }
+}
+
+impl Size {
+    /// `None` where there is no finite number to write.
+    fn new(deviation: &Deviation) -> Option<Self> {
+        let translation_mm = 1e3 * deviation.translation_m;
+        let rotation_deg = deviation.rotation_rad.to_degrees();
+        (translation_mm.is_finite() && rotation_deg.is_finite())
+            .then_some(Self { translation_mm, rotation_deg })
+    }
+}
+
+fn leave_one_out(error: &ErrorEstimate) -> Option<LeaveOneOut> {
+    let (worst, rms) = (error.worst_left_out()?, error.rms_left_out()?);
+    Some(LeaveOneOut { worst: Size::new(&worst)?, rms: Size::new(&rms)? })
+}
+
+fn rows(matrix: &Matrix6<f64>) -> Option<[[f64; 6]; 6]> {
+    let row = |r: usize| [0, 1, 2, 3, 4, 5].map(|c| matrix[(r, c)]);
+    matrix.iter().all(|v| v.is_finite()).then(|| [0, 1, 2, 3, 4, 5].map(row))
+}
+
+fn frame_outcomes(calibration: &Calibration) -> Vec<FrameOutcome> {
+    let configurations = calibration.configurations.iter().enumerate();
+    configurations
+        .flat_map(|(index, configuration)| {
+            configuration.frames.iter().map(move |name| FrameOutcome {
+                name: name.clone(),
+                configuration: index,
+                used: configuration.dropped.is_none(),
+                residual_mm: configuration.residual_m.map(|residual| 1e3 * residual),
+                reason: configuration.dropped.as_ref().map(ToString::to_string),
+            })
+        })
+        .collect()
+}
+
+fn source_name(source: &ImageSource) -> &'static str {
+    match source {
+        ImageSource::DepthImages => "depth_images",
+        ImageSource::OrganisedClouds { .. } => "organised_clouds",
+        ImageSource::ProjectedClouds => "projected_clouds",
+    }
+}
+
+impl Intrinsics {
+    fn new(camera: &PinholeCamera) -> Self {
+        let coefficients = camera.distortion().coefficients();
+        let (distortion_model, count) = match camera.distortion() {
+            Distortion::None => ("none", 0),
+            Distortion::PlumbBob { .. } => ("plumb_bob", 5),
+            Distortion::RationalPolynomial { .. } => ("rational_polynomial", 8),
+        };
+        Self {
+            width: camera.width(),
+            height: camera.height(),
+            fx: camera.fx(),
+            fy: camera.fy(),
+            cx: camera.cx(),
+            cy: camera.cy(),
+            distortion_model,
+            distortion: coefficients[..count].to_vec(),
+        }
+    }
+}

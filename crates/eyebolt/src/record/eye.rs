@@ -1,0 +1,121 @@
+//! The camera that a recording's frames are seen with.
+
+use super::RecordError;
+use crate::session::ImageSource;
+use eyebolt_geometry::{
+    Camera, Cloud, DepthImage, Distortion, PinholeCamera, Transform, fit_projection,
+};
+use eyebolt_recording::{Folder, Frame, Range};
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A camera, and how its frame is turned against the optical frame that answers are for.
+pub(crate) struct Eye {
+    pub camera: PinholeCamera,
+    pub optical_from_camera: Transform<Camera, Camera>,
+    pub source: ImageSource,
+}
+
+/// The camera of the recording; else the one that the grid of its clouds tells; else one that looks
+/// at the middle of the first cloud.
+pub(crate) fn find(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError> {
+    let cloud = frames.iter().find_map(|frame| match &frame.range {
+        Range::Cloud(cloud) => Some((frame, cloud)),
+        Range::Depth(_) => None,
+    });
+    if let Some(camera) = folder.camera() {
+        let source =
+            if cloud.is_some() { ImageSource::ProjectedClouds } else { ImageSource::DepthImages };
+        let optical_from_camera = Transform::identity();
+        return Ok(Eye { camera: camera.clone(), optical_from_camera, source });
+    }
+    let Some((frame, cloud)) = cloud else {
+        let frame = frames.first().map(|frame| frame.name.clone()).unwrap_or_default();
+        let problem = "depth images need a camera".to_owned();
+        return Err(RecordError::Projection { frame, problem });
+    };
+    let failed = |problem: String| RecordError::Projection { frame: frame.name.clone(), problem };
+    match fit_projection(cloud) {
+        Ok(fit) => Ok(Eye {
+            camera: fit.camera,
+            optical_from_camera: turn(&fit.camera_from_cloud.inverse()),
+            source: ImageSource::OrganisedClouds { residual_px: fit.residual_px },
+        }),
+        // Masks belong to the pixels of the grid, so the grid has to be understood.
+        Err(problem) if frame.mask.is_some() => Err(failed(problem.to_string())),
+        Err(_) => looking_at(cloud).ok_or_else(|| failed(TOO_WIDE.to_owned())),
+    }
+}
+
+const TOO_WIDE: &str = "the cloud has too few points, or does not lie within 70 degrees of one \
+                        direction from its origin, so no camera can have seen it";
+
+fn turn(rotation: &UnitQuaternion<f64>) -> Transform<Camera, Camera> {
+    Transform::from_parts(Vector3::zeros(), *rotation)
+}
+
+/// Points for each pixel of an image that a cloud without a grid is drawn to: few enough holes.
+const POINTS_PER_PIXEL: f64 = 3.0;
+/// Tangent of the widest angle from the axis.
+const WIDEST: f64 = 2.75;
+const FEWEST_POINTS: usize = 500;
+
+/// A camera at the origin that looks at the middle of `cloud` and has it all in view.
+fn looking_at(cloud: &Cloud) -> Option<Eye> {
+    let sum: Vector3<f64> =
+        cloud.valid().filter_map(|p| p.coords.cast::<f64>().try_normalize(1e-6)).sum();
+    let axis = sum.try_normalize(1e-6)?;
+    let camera_from_cloud = UnitQuaternion::rotation_between(&axis, &Vector3::z())
+        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+    let mut low = [f64::INFINITY; 2];
+    let mut high = [f64::NEG_INFINITY; 2];
+    for point in cloud.valid() {
+        let p = camera_from_cloud * point.coords.cast::<f64>();
+        for (axis, value) in [p.x / p.z, p.y / p.z].into_iter().enumerate() {
+            if p.z <= 0.0 || value.abs() > WIDEST {
+                return None;
+            }
+            low[axis] = low[axis].min(value);
+            high[axis] = high[axis].max(value);
+        }
+    }
+    let count = cloud.count_valid();
+    let (width, height) = (high[0] - low[0], high[1] - low[1]);
+    if count < FEWEST_POINTS || width <= 0.0 || height <= 0.0 {
+        return None;
+    }
+    let focal = (count as f64 / POINTS_PER_PIXEL / (width * height)).sqrt();
+    let pixels = |extent: f64| (extent * focal).ceil() as u32 + 1;
+    let (cx, cy) = (-low[0] * focal, -low[1] * focal);
+    let camera = PinholeCamera::new(
+        pixels(width), pixels(height), focal, focal, cx, cy, Distortion::None,
+    );
+    Some(Eye {
+        camera: camera.ok()?,
+        optical_from_camera: turn(&camera_from_cloud.inverse()),
+        source: ImageSource::ProjectedClouds,
+    })
+}
+
+impl Eye {
+    /// What this camera saw in one frame.
+    pub fn depth_image(&self, range: &Range) -> DepthImage {
+        match range {
+            Range::Depth(image) => image.clone(),
+            Range::Cloud(cloud) => self.cloud_depth(cloud),
+        }
+    }
+
+    /// Depth of a cloud along the camera's axis: pixel by pixel where the grid is the camera's,
+    /// projected otherwise.
+    fn cloud_depth(&self, cloud: &Cloud) -> DepthImage {
+        let turned = cloud.rotated(&self.optical_from_camera.rotation().inverse());
+        let (width, height) = (self.camera.width(), self.camera.height());
+        if turned.grid() == Some((width, height)) {
+            let depth = turned.points().iter().map(|p| p.z).collect();
+            if let Ok(image) = DepthImage::new(width, height, depth) {
+                return image;
+            }
+        }
+        turned.to_depth_image(&self.camera)
+    }
+}
