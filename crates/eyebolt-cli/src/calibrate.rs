@@ -85,6 +85,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let destination = Destination::new(&arguments.output, arguments.force)?;
     let bar = Bar::new();
     let recording = Folder::open(&arguments.recording)?;
+    if let Some(folder) = &arguments.save_overlay {
+        check_overlays(folder, &recording, arguments.force)?;
+    }
     let arm = arm(arguments, &recording)?;
     let cache = cache(arguments);
     let request = Request {
@@ -98,15 +101,17 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let outcome = pipeline::run(&request, &bar)?;
     bar.begin(Step::Report);
     let pictures = match &arguments.save_overlay {
-        Some(folder) => save_overlays(folder, &recording, &outcome, arguments.force)?,
-        None => Vec::new(),
+        Some(folder) => save_overlays(folder, &recording, &outcome, arguments.force),
+        None => Ok(Vec::new()),
     };
     let timing = bar.finish();
     let mut answer = Answer::new(&request, &outcome);
     answer.timing_ms = arguments.timing.then_some(timing);
     let trusted = outcome.calibration.verdict == Verdict::Trusted;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
-    output::say(&summary::text(&answer, &path, &pictures));
+    // A picture that could not be written must not cost the calibration.
+    output::say(&summary::text(&answer, &path, pictures.as_deref().unwrap_or_default()));
+    pictures?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
 
@@ -156,6 +161,19 @@ fn cache(arguments: &Arguments) -> LinkCache {
     arguments.cache.clone().or_else(user).map_or(LinkCache::disabled(), LinkCache::new)
 }
 
+/// Better told now than after the work: pictures that are in the way, or a folder that is none.
+fn check_overlays(folder: &Path, recording: &Folder, force: bool) -> Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        bail!("{}: --save-overlay: not a folder. Name one", folder.display());
+    }
+    let mut paths = recording.frame_names().iter().map(|name| overlay_path(folder, name));
+    paths.try_for_each(|path| output::refuse_existing(&path, force))
+}
+
+fn overlay_path(folder: &Path, frame: &str) -> PathBuf {
+    folder.join(format!("overlay_{frame}.png"))
+}
+
 /// Draws every configuration; the paths of the pictures.
 fn save_overlays(
     folder: &Path,
@@ -175,7 +193,7 @@ fn save_overlays(
         let color = index.map(|index| recording.read_color(index)).transpose()?.flatten();
         let pose = &refinement.camera_from_base;
         let picture = overlay(session, configuration, &mut raster, pose, color.as_ref());
-        let path = folder.join(format!("overlay_{name}.png"));
+        let path = overlay_path(folder, name);
         output::write_whole(&path, &picture.encode_png(), force)?;
         paths.push(path);
     }

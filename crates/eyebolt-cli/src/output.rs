@@ -33,6 +33,9 @@ impl Destination {
         let destination =
             Self { trusted: path.to_owned(), rejected: path.with_file_name(name), force };
         for file in [&destination.trusted, &destination.rejected] {
+            if file.is_dir() {
+                bail!("{}: --output: this is a folder. Name a file in it", file.display());
+            }
             refuse_existing(file, force)?;
         }
         let folder = folder_of(path);
@@ -53,7 +56,8 @@ impl Destination {
     }
 }
 
-fn refuse_existing(path: &Path, force: bool) -> Result<()> {
+/// An error if there is a file at `path`, unless `force` is given.
+pub fn refuse_existing(path: &Path, force: bool) -> Result<()> {
     if !force && path.exists() {
         bail!("{}: the file exists. Give --force to replace it, or another name", path.display());
     }

@@ -24,8 +24,12 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
 }
 
 fn verdict(text: &mut String, answer: &Answer) -> std::fmt::Result {
-    let used = answer.configurations.iter().filter(|frame| frame.used).count();
-    writeln!(text, "{} ({used} of {} frames used)", answer.verdict.to_uppercase(), answer.configurations.len())?;
+    let (frames, verdict) = (&answer.configurations, answer.verdict.to_uppercase());
+    let used = frames.iter().filter(|frame| frame.used).count();
+    match frames.len() {
+        0 => writeln!(text, "{verdict}")?,
+        count => writeln!(text, "{verdict} ({used} of {count} frames used)")?,
+    }
     for reason in &answer.reasons {
         writeln!(text, "  - {reason}")?;
     }

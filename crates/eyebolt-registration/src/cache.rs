@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Changes whenever what is stored or how it is built does.
-const VERSION: &[u8; 16] = b"eyebolt link  04";
+const VERSION: &[u8; 16] = b"eyebolt link  05";
 
 /// A folder of link models.
 #[derive(Clone, Debug)]

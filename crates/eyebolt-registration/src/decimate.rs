@@ -4,13 +4,12 @@
 mod constraints;
 mod quadric;
 mod surface;
-mod weld;
 #[cfg(test)]
 mod tests;
+mod weld;
 
 use constraints::Constraints;
 use eyebolt_robot::TriangleMesh;
-use nalgebra::Point3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use surface::Surface;
@@ -29,12 +28,14 @@ pub(crate) fn simplified(mesh: &TriangleMesh, tolerance_m: f32) -> TriangleMesh 
     let edges = surface.edges();
     let planned = |[u, v]: [u32; 2]| Collapse::planned(&surface, &constraints, &stamps, u, v);
     let mut queue: BinaryHeap<Collapse> = edges.into_iter().filter_map(planned).collect();
-    while let Some(Collapse { ends: [kept, gone], stamps: then, target, .. }) = queue.pop() {
+    while let Some(Collapse { ends: [kept, gone], stamps: then, .. }) = queue.pop() {
+        if [stamps[kept as usize], stamps[gone as usize]] != then {
+            continue;
+        }
         // What a neighbour forbids now is tried again only once an end has moved: trying all
         // again at the end finds one collapse in a thousand.
-        let is_void = [stamps[kept as usize], stamps[gone as usize]] != then;
-        if is_void
-            || !constraints.keep_near(kept, gone, &target)
+        let Some((target, _)) = constraints.best_target(&surface, [kept, gone]) else { continue };
+        if !constraints.keep_near(kept, gone, &target)
             || !surface.stays_sound(kept, gone, constraints.both_on_rims(kept, gone), &target)
         {
             continue;
@@ -50,14 +51,14 @@ pub(crate) fn simplified(mesh: &TriangleMesh, tolerance_m: f32) -> TriangleMesh 
     surface.into_mesh()
 }
 
-/// An edge that may become a point.
+/// An edge that may become a point. Where is worked out again at its turn: most never have one,
+/// and the queue is the slowest part the larger its entries are.
 struct Collapse {
     error_m: f64,
     /// The vertex that stays, the lower one, and the vertex that goes.
     ends: [u32; 2],
     /// How often each end had changed when this was worked out: if more since, it is void.
     stamps: [u32; 2],
-    target: Point3<f64>,
 }
 
 impl Collapse {
@@ -70,9 +71,8 @@ impl Collapse {
         v: u32,
     ) -> Option<Self> {
         let ends = [u.min(v), u.max(v)];
-        let points = ends.map(|end| surface.points[end as usize]);
-        let (target, error_m) = constraints.best_target(ends, &points)?;
-        Some(Self { error_m, ends, stamps: ends.map(|end| stamps[end as usize]), target })
+        let (_, error_m) = constraints.best_target(surface, ends)?;
+        Some(Self { error_m, ends, stamps: ends.map(|end| stamps[end as usize]) })
     }
 }
 

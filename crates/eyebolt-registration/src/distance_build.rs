@@ -5,7 +5,7 @@
 //! grid's border, which needs no closed or consistently oriented mesh.
 
 use crate::distance_field::DistanceField;
-use crate::triangle::{area_normal, closest_point};
+use crate::triangle::{area_normal, closest_point, spread_points};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
@@ -217,14 +217,15 @@ impl<'a> Builder<'a> {
         self.cell(p).is_none_or(|cell| outside[self.index(cell)])
     }
 
-    /// Whether a triangle can be seen from outside: a probe a little off either face gets there.
+    /// Whether some of a triangle can be seen from outside: a probe a little off either face gets
+    /// there. A large one may be covered in part.
     fn touches(&self, outside: &[bool], triangle: &[Point3<f32>; 3]) -> bool {
-        let [a, b, c] = triangle;
-        let middle = Point3::from((a.coords + b.coords + c.coords) / 3.0);
         let Some(normal) = area_normal(triangle).try_normalize(1e-20) else { return false };
-        [1.2f32, -1.2, 2.0, -2.0]
-            .iter()
-            .any(|reach| self.is_outside(outside, &(middle + normal * (reach * self.voxel_m))))
+        spread_points(triangle, 2.0 * self.voxel_m).any(|p| {
+            [1.2f32, -1.2, 2.0, -2.0]
+                .iter()
+                .any(|reach| self.is_outside(outside, &(p + normal * (reach * self.voxel_m))))
+        })
     }
 
     fn signed(self, outside: &[bool]) -> DistanceField {

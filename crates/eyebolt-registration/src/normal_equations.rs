@@ -12,15 +12,13 @@ pub struct NormalEquations<const N: usize> {
     pub information: SMatrix<f64, N, N>,
     /// Sum of `w J^T r`.
     pub gradient: SVector<f64, N>,
-    /// Sum of the robust costs.
-    pub cost: f64,
     /// Sum of the weights.
     pub weight: f64,
 }
 
 impl<const N: usize> Default for NormalEquations<N> {
     fn default() -> Self {
-        Self { information: SMatrix::zeros(), gradient: SVector::zeros(), cost: 0.0, weight: 0.0 }
+        Self { information: SMatrix::zeros(), gradient: SVector::zeros(), weight: 0.0 }
     }
 }
 
@@ -32,12 +30,11 @@ impl<const N: usize> NormalEquations<N> {
         self.weight += weight;
     }
 
-    /// Adds another sum, scaled by `factor`.
-    pub fn add_scaled(&mut self, other: &Self, factor: f64) {
-        self.information += other.information * factor;
-        self.gradient += other.gradient * factor;
-        self.cost += other.cost * factor;
-        self.weight += other.weight * factor;
+    /// Adds another sum.
+    pub fn add_all(&mut self, other: &Self) {
+        self.information += other.information;
+        self.gradient += other.gradient;
+        self.weight += other.weight;
     }
 
     /// The step that minimises the linearised problem, with `damping` times the diagonal added.

@@ -1,7 +1,7 @@
 //! Points spread over the outside of a mesh.
 
 use crate::distance_field::DistanceField;
-use crate::triangle::area_normal;
+use crate::triangle::{area_normal, spread_points};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
@@ -29,7 +29,8 @@ pub(crate) fn sample_surface(
     let corners: Vec<[Point3<f32>; 3]> =
         mesh.triangles.iter().map(|t| t.map(|i| mesh.vertices[i as usize])).collect();
     let area = |triangle: &[Point3<f32>; 3]| 0.5 * f64::from(area_normal(triangle).norm());
-    let outer: f64 = corners.iter().filter(|t| is_outer(field, t)).map(area).sum();
+    let shares: Vec<f64> = corners.iter().map(|t| outer_share(field, t)).collect();
+    let outer: f64 = corners.iter().zip(&shares).map(|(t, share)| share * area(t)).sum();
     if outer <= 0.0 || outer.is_nan() {
         return Vec::new();
     }
@@ -37,7 +38,7 @@ pub(crate) fn sample_surface(
     let mut owed = 0.5 * spacing;
     let mut index = 0u32;
     let mut points = Vec::with_capacity(count + 1);
-    for triangle in corners.iter().filter(|t| is_outer(field, t)) {
+    for (triangle, _) in corners.iter().zip(&shares).filter(|(_, share)| **share > 0.0) {
         owed += area(triangle);
         while owed >= spacing {
             owed -= spacing;
@@ -48,9 +49,23 @@ pub(crate) fn sample_surface(
     points
 }
 
-fn is_outer(field: &DistanceField, [a, b, c]: &[Point3<f32>; 3]) -> bool {
-    let middle = Point3::from((a.coords + b.coords + c.coords) / 3.0);
-    field.sample(&middle).distance_m.abs() < OUTSIDE_M
+/// How much of a triangle is outside: some of a large one may run through other parts.
+fn outer_share(field: &DistanceField, triangle: &[Point3<f32>; 3]) -> f64 {
+    let Some(normal) = area_normal(triangle).try_normalize(1e-20) else { return 0.0 };
+    let (mut all, mut outer) = (0.0, 0.0);
+    for p in spread_points(triangle, 2.0 * PROBE_M) {
+        let at_surface = field.sample(&p).distance_m.abs() < OUTSIDE_M;
+        all += 1.0;
+        outer += if at_surface && is_open(field, &p, &normal) { 1.0 } else { 0.0 };
+    }
+    outer / all
+}
+
+/// Whether there is nothing a little off at least one face.
+fn is_open(field: &DistanceField, point: &Point3<f32>, normal: &Vector3<f32>) -> bool {
+    [PROBE_M, -PROBE_M]
+        .iter()
+        .any(|reach| field.sample(&(point + normal * *reach)).distance_m > 0.0)
 }
 
 fn on_triangle(
@@ -67,6 +82,9 @@ fn on_triangle(
     }
     let point = a + (b - a) * u + (c - a) * v;
     let flat = area_normal(&[*a, *b, *c]).try_normalize(1e-20)?;
+    if !is_open(field, &point, &flat) {
+        return None;
+    }
     // Beside an edge the gradient may point anywhere: what lies off either face tells.
     let side = |reach: f32| field.sample(&(point + flat * reach)).distance_m;
     let normal = if side(PROBE_M) < side(-PROBE_M) { -flat } else { flat };

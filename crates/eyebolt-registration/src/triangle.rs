@@ -41,6 +41,18 @@ fn share(part: f32, whole: f32) -> f32 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
+/// Points spread over a triangle, no farther than about `spacing` apart; of a small one, its middle.
+pub(crate) fn spread_points(
+    [a, b, c]: &[Point3<f32>; 3],
+    spacing: f32,
+) -> impl Iterator<Item = Point3<f32>> + use<> {
+    let (a, ab, ac) = (*a, b - a, c - a);
+    let longest = ab.norm().max(ac.norm()).max((ac - ab).norm());
+    let n = (longest / spacing).ceil().clamp(1.0, 100.0) as u16;
+    let share = move |i: u16| (f32::from(i) + 1.0 / 3.0) / f32::from(n);
+    (0..n).flat_map(move |i| (0..n - i).map(move |j| a + ab * share(i) + ac * share(j)))
+}
+
 /// Twice the area times the unit normal.
 pub(crate) fn area_normal([a, b, c]: &[Point3<f32>; 3]) -> Vector3<f32> {
     (b - a).cross(&(c - a))

@@ -30,18 +30,19 @@ pub fn start(session: &Session, masks: &[Mask], seed: u64, wanted: usize) -> Vec
     let whole = session.has_masks();
     let count = session.configurations.len();
     let stride = count.div_ceil(CONFIGURATIONS).max(1);
-    let views: Vec<SearchView<'_>> = (0..count)
-        .into_par_iter()
-        .step_by(stride)
-        .filter_map(|index| {
-            let (configuration, mask) = (&session.configurations[index], &masks[index]);
-            let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
-            let surface = surface(session, configuration, whole);
-            let view = session.view(configuration);
-            (arm_points.len() >= SEARCH_POINTS / 20 && !surface.is_empty())
-                .then_some(SearchView { view, arm_points, surface })
-        })
-        .collect();
+    let views: Vec<SearchView<'_>> =
+        (0..count)
+            .into_par_iter()
+            .step_by(stride)
+            .filter_map(|index| {
+                let (configuration, mask) = (&session.configurations[index], &masks[index]);
+                let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
+                let surface = surface(session, configuration, whole);
+                let view = session.view(configuration);
+                (arm_points.len() >= SEARCH_POINTS / 20 && !surface.is_empty())
+                    .then_some(SearchView { view, arm_points, surface })
+            })
+            .collect();
     search(&session.arm, &views, seed, wanted)
 }
 

@@ -93,11 +93,7 @@ pub fn open(
 }
 
 /// One configuration of frames with the same joints.
-fn merged(
-    frames: &[&Frame],
-    posture: Posture,
-    eye: &eye::Eye,
-) -> Configuration {
+fn merged(frames: &[&Frame], posture: Posture, eye: &eye::Eye) -> Configuration {
     let images: Vec<_> = frames.iter().map(|frame| eye.depth_image(&frame.range)).collect();
     let masks: Vec<_> = frames.iter().map(|frame| frame.mask.clone()).collect();
     Configuration {

@@ -1,6 +1,6 @@
 //! What holds each vertex to the surface that was there before.
 
-use super::quadric::Quadric;
+use super::quadric::{Optimum, Quadric};
 use super::surface::{Surface, area_normal};
 use nalgebra::{Point3, Vector3, center};
 
@@ -28,6 +28,9 @@ struct Plane {
 /// mean away, the mean still decides.
 const FARTHEST: f64 = 2.0;
 
+/// Below this error, in tolerances, a place is as good as where the surface was.
+const EXACT: f64 = 1e-3;
+
 impl Constraints {
     pub(super) fn of(surface: &Surface, tolerance_m: f64) -> Self {
         let count = surface.points.len();
@@ -40,7 +43,7 @@ impl Constraints {
             held_by: vec![Vec::new(); count],
         };
         for triangle in &surface.triangles {
-            let corners = triangle.map(|corner| surface.points[corner as usize]);
+            let corners = surface.corners(*triangle);
             let across = area_normal(&corners);
             // A triangle without area has no plane; its neighbours' planes hold its corners.
             if let Some(normal) = across.try_normalize(0.0) {
@@ -89,25 +92,30 @@ impl Constraints {
     /// the error is beyond the tolerance everywhere.
     pub(super) fn best_target(
         &self,
+        surface: &Surface,
         ends: [u32; 2],
-        points: &[Point3<f64>; 2],
     ) -> Option<(Point3<f64>, f64)> {
         let [u, v] = ends.map(|end| end as usize);
-        let mut faces = self.faces[u];
-        faces += self.faces[v];
-        let mut rims = self.rims[u];
-        rims += self.rims[v];
-        let mut both = faces;
-        both += rims;
-        let error = |point: &Point3<f64>| faces.mean_square(point).max(rims.mean_square(point));
+        let points = [surface.points[u], surface.points[v]];
         let middle = center(&points[0], &points[1]);
-        let best = |best: (Point3<f64>, f64), point| {
+        let faces = self.faces[u] + self.faces[v];
+        let rims = self.rims[u] + self.rims[v];
+        let error = |point: &Point3<f64>| faces.mean_square(point).max(rims.mean_square(point));
+        let better = |best: (Point3<f64>, f64), point| {
             let square = error(&point);
             if square < best.1 { (point, square) } else { best }
         };
-        // An end that is exact, as a corner is, is better than an optimum near it.
-        let start = both.optimum(&middle).unwrap_or(middle);
-        let (point, square) = points.iter().copied().fold((start, error(&start)), best);
+        let optimum = (faces + rims).optimum(&middle);
+        let start = optimum.as_ref().map_or(middle, Optimum::point);
+        let (mut point, mut square) = points.into_iter().fold((start, error(&start)), better);
+        // What is exact, as a corner is, keeps the volume as well as anything.
+        if square > (EXACT * self.tolerance_m).powi(2) {
+            let level = optimum.zip(surface.same_volume(ends[0], ends[1]));
+            let level = level.and_then(|(optimum, plane)| optimum.on(&plane));
+            let level = level.map(|level| (level, error(&level)));
+            let within = |(_, square): &(_, f64)| square.sqrt() < self.tolerance_m;
+            (point, square) = level.filter(within).unwrap_or((point, square));
+        }
         let error_m = square.sqrt();
         (error_m < self.tolerance_m).then_some((point, error_m))
     }

@@ -1,7 +1,7 @@
 //! Weighted sums of squared distances from planes, as one quadratic form.
 
 use nalgebra::{Matrix3, Point3, Vector3};
-use std::ops::AddAssign;
+use std::ops::{Add, AddAssign};
 
 /// `q(x) = xᵀ A x + 2 bᵀ x + c`, the sum over planes of weight times squared distance.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,20 +40,54 @@ impl Quadric {
     }
 
     /// Where the sum is least: of such points, the one nearest to `near`.
-    pub(super) fn optimum(&self, near: &Point3<f64>) -> Option<Point3<f64>> {
-        let pull = PULL * self.a.trace();
+    pub(super) fn optimum(&self, near: &Point3<f64>) -> Option<Optimum> {
         let slope = self.a * near.coords + self.b;
-        let pulled = self.a + Matrix3::identity() * pull;
-        let optimum = near - pulled.cholesky()?.solve(&slope);
-        optimum.iter().all(|x| x.is_finite()).then_some(optimum)
+        let pulled = self.a + Matrix3::identity() * (PULL * self.a.trace());
+        let inverse = pulled.try_inverse()?;
+        let point = near - inverse * slope;
+        point.iter().all(|x| x.is_finite()).then_some(Optimum { point, inverse })
+    }
+}
+
+/// Where a quadric is least, and how it grows around.
+pub(super) struct Optimum {
+    point: Point3<f64>,
+    /// Of the quadratic part.
+    inverse: Matrix3<f64>,
+}
+
+impl Optimum {
+    pub(super) fn point(&self) -> Point3<f64> {
+        self.point
+    }
+
+    /// Where the quadric is least on a plane, given by a normal of any length and a point.
+    pub(super) fn on(
+        &self,
+        (normal, through): &(Vector3<f64>, Point3<f64>),
+    ) -> Option<Point3<f64>> {
+        let steepest = self.inverse * normal;
+        let point =
+            self.point + steepest * (normal.dot(&(through - self.point)) / normal.dot(&steepest));
+        point.iter().all(|x| x.is_finite()).then_some(point)
+    }
+}
+
+impl Add for Quadric {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            a: self.a + other.a,
+            b: self.b + other.b,
+            c: self.c + other.c,
+            weight: self.weight + other.weight,
+        }
     }
 }
 
 impl AddAssign for Quadric {
     fn add_assign(&mut self, other: Self) {
-        self.a += other.a;
-        self.b += other.b;
-        self.c += other.c;
-        self.weight += other.weight;
+        *self = *self + other;
     }
 }

@@ -43,8 +43,9 @@ proptest! {
             let jacobian = SVector::from(*jacobian);
             whole.add(&jacobian, -jacobian.dot(&solution), *weight);
             let mut one = NormalEquations::default();
-            one.add(&jacobian, -jacobian.dot(&solution), 2.0 * weight);
-            halves.add_scaled(&one, 0.5);
+            one.add(&jacobian, -jacobian.dot(&solution), 0.5 * weight);
+            halves.add_all(&one);
+            halves.add_all(&one);
         }
         prop_assert!((whole.information - halves.information).amax() < 1e-12);
         prop_assert!((whole.gradient - halves.gradient).amax() < 1e-12);

@@ -82,7 +82,7 @@ fn surface_distances(
             let z = depth[at];
             let [x, y] = rays.rays()[at];
             let point = rotation * Point3::new(x * z, y * z, z) + pose.translation.vector;
-            if !(z > 0.0) {
+            if z <= 0.0 {
                 distances.push(f32::NAN);
                 continue;
             }

@@ -64,8 +64,10 @@ fn looking_at(cloud: &Cloud) -> Option<Eye> {
     let sum: Vector3<f64> =
         cloud.valid().filter_map(|p| p.coords.cast::<f64>().try_normalize(1e-6)).sum();
     let axis = sum.try_normalize(1e-6)?;
-    let camera_from_cloud = UnitQuaternion::rotation_between(&axis, &Vector3::z())
-        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+    let camera_from_cloud =
+        UnitQuaternion::rotation_between(&axis, &Vector3::z()).unwrap_or_else(|| {
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
     for point in cloud.valid() {
@@ -86,9 +88,8 @@ fn looking_at(cloud: &Cloud) -> Option<Eye> {
     let focal = (count as f64 / POINTS_PER_PIXEL / (width * height)).sqrt();
     let pixels = |extent: f64| (extent * focal).ceil() as u32 + 1;
     let (cx, cy) = (-low[0] * focal, -low[1] * focal);
-    let camera = PinholeCamera::new(
-        pixels(width), pixels(height), focal, focal, cx, cy, Distortion::None,
-    );
+    let camera =
+        PinholeCamera::new(pixels(width), pixels(height), focal, focal, cx, cy, Distortion::None);
     Some(Eye {
         camera: camera.ok()?,
         optical_from_camera: turn(&camera_from_cloud.inverse()),

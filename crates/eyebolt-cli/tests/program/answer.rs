@@ -1,0 +1,194 @@
+//! What a run writes.
+
+use crate::program::{Desk, Ended, text};
+use crate::scene::{CAMERA, CAMERA_FROM_BASE};
+use nalgebra::{Isometry3, Matrix4, Matrix6, Quaternion, Translation3, UnitQuaternion, Vector3};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::sync::LazyLock;
+
+/// A trusted run with pictures, on one thread.
+struct Good {
+    desk: Desk,
+    ended: Ended,
+    json: String,
+}
+
+static GOOD: LazyLock<Good> = LazyLock::new(|| {
+    let desk = Desk::shared("program-good");
+    let pictures = desk.file("pictures");
+    let ended = desk.calibrate(&["--threads", "1", "--save-overlay", text(&pictures)]);
+    let json = fs::read_to_string(desk.file("calibration.json")).unwrap_or_default();
+    Good { desk, ended, json }
+});
+
+fn parsed() -> Value {
+    serde_json::from_str(&GOOD.json).unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(items) => items.iter().flat_map(numbers).collect(),
+        number => vec![number.as_f64().unwrap()],
+    }
+}
+
+#[test]
+fn trusted_ends_with_0_and_says_only_the_summary() {
+    let Ended { code, out, err } = &GOOD.ended;
+    assert_eq!(*code, Some(0), "out: {out}\nerr: {err}");
+    assert!(out.starts_with("TRUSTED (5 of 5 frames used)\n"), "{out}");
+    assert!(out.contains("mm") && out.contains("degrees") && out.contains("translation_m"), "{out}");
+    assert!(out.contains(&format!("written to {}\n", text(&GOOD.desk.file("calibration.json")))));
+    assert_eq!(err, "", "no progress bar where there is no terminal");
+    assert_eq!(GOOD.desk.names(), ["calibration.json", "pictures"]);
+}
+
+#[test]
+fn the_file_says_what_it_is_and_between_which_frames() {
+    let json = parsed();
+    assert_eq!(json["schema"], "eyebolt.calibration/1");
+    assert_eq!(json["verdict"], "trusted");
+    assert_eq!(json["reasons"], Value::Array(Vec::new()));
+    assert_eq!(json["robot"], "newcomer");
+    assert_eq!(json["frames"]["camera"], "depth_optical");
+    assert_eq!(json["frames"]["base"], "base");
+    assert_eq!(json["frames"]["end_effector"], "hand");
+    assert_eq!(json["masks"], true);
+    assert_eq!(json["seed"], 1);
+    assert_eq!(json["image_source"], "depth_images");
+    assert_eq!(json["intrinsics"]["width"], CAMERA.width());
+    assert_eq!(json["intrinsics"]["fx"].as_f64(), Some(CAMERA.fx()));
+    assert!(json.get("timing_ms").is_none(), "bytes must not depend on the clock");
+    let frames = json["configurations"].as_array().unwrap();
+    let names: Vec<_> = frames.iter().map(|frame| frame["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["0", "1", "2", "3", "4"]);
+    for frame in frames {
+        assert_eq!(frame["used"], true);
+        assert!((0.0..20.0).contains(&frame["residual_mm"].as_f64().unwrap()), "{frame}");
+    }
+}
+
+#[test]
+fn numbers_have_their_unit_in_their_name() {
+    let json = parsed();
+    let mut names = BTreeSet::new();
+    collect_names(&json, &mut names);
+    // Counts, shares and pixels of the intrinsics have none, and covariances two.
+    let plain = [
+        "configuration", "contradicted_share", "covariance", "cx", "cy", "depth_scale_error",
+        "distortion", "fx", "fy", "height", "matrix", "rotation_xyzw", "seed", "silhouette_iou",
+        "unexplained_share", "width",
+    ];
+    let units = ["_m", "_mm", "_deg", "_px", "_ms"];
+    for name in names {
+        let has_unit = units.iter().any(|unit| name.ends_with(unit));
+        assert!(has_unit || plain.contains(&name.as_str()), "{name} has no unit");
+    }
+}
+
+/// Names of fields with a number or a list of numbers.
+fn collect_names(value: &Value, names: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(fields) => {
+            for (name, field) in fields {
+                let first = std::iter::successors(Some(field), |field| field.get(0)).last();
+                if first.is_some_and(Value::is_number) {
+                    names.insert(name.clone());
+                }
+                collect_names(field, names);
+            }
+        }
+        Value::Array(items) => items.iter().for_each(|item| collect_names(item, names)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_two_poses_are_inverse_and_each_spells_one_transform() {
+    let json = parsed();
+    let matrix = |name: &str| Matrix4::from_row_slice(&numbers(&json[name]["matrix"]));
+    let (there, back) = (matrix("camera_from_base"), matrix("base_from_camera"));
+    assert!((there * back - Matrix4::identity()).amax() < 1e-12);
+    for (name, matrix) in [("camera_from_base", there), ("base_from_camera", back)] {
+        let translation_m = Translation3::from(Vector3::from_row_slice(&numbers(
+            &json[name]["translation_m"],
+        )));
+        let [x, y, z, w] = numbers(&json[name]["rotation_xyzw"])[..] else { panic!("{name}") };
+        let rotation = Quaternion::new(w, x, y, z);
+        assert!((rotation.norm() - 1.0).abs() < 1e-12 && w >= 0.0);
+        let spelled = Isometry3::from_parts(translation_m, UnitQuaternion::from_quaternion(rotation));
+        assert!((spelled.to_homogeneous() - matrix).amax() < 1e-12);
+    }
+    assert!((there - CAMERA_FROM_BASE.matrix()).amax() < 0.02, "{there}");
+}
+
+#[test]
+fn the_covariance_is_one() {
+    let json = parsed();
+    let covariance = Matrix6::from_row_slice(&numbers(&json["covariance"]));
+    assert!((covariance - covariance.transpose()).amax() <= 1e-12 * covariance.amax());
+    // Translation (m) and rotation (rad) differ little in size here, so no scaling is needed.
+    assert!(covariance.symmetric_eigenvalues().min() > 0.0, "{covariance}");
+    let trace_rad2 = covariance.fixed_view::<3, 3>(3, 3).trace();
+    let expected_deg = json["expected_error"]["rotation_deg"].as_f64().unwrap();
+    assert!((trace_rad2.sqrt().to_degrees() - expected_deg).abs() < 1e-9);
+}
+
+#[test]
+fn the_bytes_are_the_same_on_any_number_of_threads() {
+    let desk = Desk::new();
+    let ended = desk.calibrate(&["--threads", "2"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(fs::read(desk.file("calibration.json")).unwrap() == GOOD.json.as_bytes());
+}
+
+#[test]
+fn pictures_are_of_the_cameras_size() {
+    let pictures = GOOD.desk.file("pictures");
+    assert!(GOOD.ended.out.contains(&format!("5 pictures in {}", text(&pictures))));
+    assert_eq!(fs::read_dir(&pictures).unwrap().count(), 5);
+    for frame in 0..5 {
+        let file = fs::read(pictures.join(format!("overlay_{frame}.png"))).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(&file)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        assert_eq!((info.width, info.height), (CAMERA.width(), CAMERA.height()));
+        assert_eq!(info.color_type, png::ColorType::Rgb);
+    }
+}
+
+#[test]
+fn refused_ends_with_3_and_goes_to_another_file() {
+    let desk = Desk::new();
+    let ended = desk.calibrate(&["--max-error-mm", "0.001"]);
+    assert_eq!(ended.code, Some(3), "out: {}\nerr: {}", ended.out, ended.err);
+    assert!(ended.out.starts_with("REFUSED"), "{}", ended.out);
+    assert!(ended.out.contains("written to") && ended.out.contains("calibration.rejected.json"));
+    assert!(!ended.out.contains("translation_m"), "no pose to copy by mistake: {}", ended.out);
+    assert_eq!(ended.err, "");
+    assert_eq!(desk.names(), ["calibration.rejected.json"]);
+    let text = fs::read_to_string(desk.file("calibration.rejected.json")).unwrap();
+    let rejected: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(rejected["verdict"], "refused");
+    let reason = rejected["reasons"][0].as_str().unwrap();
+    assert!(reason.contains("0.0 mm") && reason.contains("allowed"), "{reason}");
+    // All but the verdict is as it was.
+    let mut good = parsed();
+    (good["verdict"], good["reasons"]) = (rejected["verdict"].clone(), rejected["reasons"].clone());
+    assert_eq!(good, rejected);
+}
+
+#[test]
+fn timing_is_added_on_request() {
+    let desk = Desk::new();
+    assert_eq!(desk.calibrate_stranger(&["--timing"]).code, Some(3));
+    let text = fs::read_to_string(desk.file("calibration.rejected.json")).unwrap();
+    let rejected: Value = serde_json::from_str(&text).unwrap();
+    let timing = rejected["timing_ms"].as_object().unwrap();
+    let ms = |name: &str| timing[name].as_f64().unwrap();
+    let stages: f64 = timing.keys().filter(|name| *name != "total").map(|name| ms(name)).sum();
+    assert!(timing.contains_key("record") && timing.values().all(|ms| ms.as_f64() >= Some(0.0)));
+    assert!((ms("total") - stages).abs() < 1e-6);
+}

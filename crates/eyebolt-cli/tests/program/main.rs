@@ -1,0 +1,10 @@
+//! The program from outside: exit status, files and what it says.
+
+mod answer;
+mod files;
+mod messages;
+mod program;
+#[path = "../../../eyebolt/tests/newcomer/recording.rs"]
+mod recording;
+#[path = "../../../eyebolt/tests/newcomer/scene.rs"]
+mod scene;

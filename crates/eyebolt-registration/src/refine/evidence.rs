@@ -1,0 +1,80 @@
+//! Residuals of one step, and how large they are.
+
+use super::RefineView;
+use super::weighing::Scales;
+use crate::arm::ArmModel;
+use crate::factors::{Factor, State, outline_factor, surface_factor};
+use crate::robust::median;
+use eyebolt_render::{Raster, contour};
+use rayon::prelude::*;
+
+const LEAST_SURFACE_SIGMA_M: f64 = 0.001;
+const LEAST_OUTLINE_SIGMA_PX: f64 = 0.7;
+/// Contour points looked at in a view.
+const CONTOUR_POINTS: usize = 1500;
+
+/// Residuals of one view at one state.
+pub(super) struct Evidence {
+    pub surface: Vec<Factor>,
+    pub outline: Vec<Factor>,
+    /// Cracks of the contour that each outline factor stands for.
+    pub cracks_per_factor: f64,
+    /// Points of the arm, and how many pixels each stands for.
+    pub points: usize,
+    pub pixels_per_point: f64,
+}
+
+/// Residuals of all views at `state`.
+pub(super) fn gather(
+    arm: &ArmModel,
+    views: &[RefineView<'_>],
+    rasters: &mut [Raster],
+    state: &State,
+) -> Vec<Evidence> {
+    let pairs = views.par_iter().zip(rasters.par_iter_mut());
+    pairs.map(|(view, raster)| gather_one(arm, view, raster, state)).collect()
+}
+
+fn gather_one(
+    arm: &ArmModel,
+    view: &RefineView<'_>,
+    raster: &mut Raster,
+    state: &State,
+) -> Evidence {
+    let (camera, posture) = (view.view.camera, view.view.posture);
+    raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
+    let cracks = contour(raster, camera);
+    let stride = cracks.len().div_ceil(CONTOUR_POINTS).max(1);
+    let outline = cracks
+        .iter()
+        .step_by(stride)
+        .filter(|crack| crack.behind_m.is_none())
+        .filter_map(|crack| outline_factor(camera, &view.silhouette, state, crack))
+        .collect();
+    let surface =
+        view.arm_points.iter().filter_map(|p| surface_factor(arm, posture, state, p)).collect();
+    Evidence {
+        surface,
+        outline,
+        cracks_per_factor: stride as f64,
+        points: view.arm_points.len(),
+        pixels_per_point: view.pixels_per_point,
+    }
+}
+
+/// Deviation of the residuals that are within the robust scales, from their median size.
+pub(super) fn deviations(evidence: &[Evidence], scales: &Scales) -> Scales {
+    let spread = |values: Vec<f64>, least: f64| {
+        let mut values = values;
+        median(&mut values).map_or(least, |m| (1.4826 * m).max(least))
+    };
+    let near = |factors: &mut dyn Iterator<Item = &Factor>, scale: f64| -> Vec<f64> {
+        factors.map(|f| f.residual.abs()).filter(|r| *r < 2.0 * scale).collect()
+    };
+    let surface = near(&mut evidence.iter().flat_map(|e| &e.surface), scales.surface_m);
+    let outline = near(&mut evidence.iter().flat_map(|e| &e.outline), scales.outline_px);
+    Scales {
+        surface_m: spread(surface, LEAST_SURFACE_SIGMA_M),
+        outline_px: spread(outline, LEAST_OUTLINE_SIGMA_PX),
+    }
+}

@@ -1,0 +1,97 @@
+//! What a refinement comes to: fits, information, covariance.
+
+use super::evidence::Evidence;
+use super::weighing::{DEPTH_SCALE_PRIOR, OUTLINE_PRIOR_PX, Scales, Weighing};
+use super::{Refinement, StopReason, ViewFit};
+use crate::factors::{DEPTH_SCALE, OUTLINE_WIDTH, State, UNKNOWNS};
+use crate::normal_equations::NormalEquations;
+use crate::robust::median;
+use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+
+/// Of the information scaled to a diagonal of ones: between what rounding leaves of nothing, 1e-15,
+/// and what three points on a surface tell.
+const LEAST_EIGENVALUE: f64 = 1e-10;
+
+/// The outcome of a refinement that ended at `state`, but for how it got there.
+pub(super) fn summarise(state: &State, evidence: &[Evidence], weighing: &Weighing) -> Refinement {
+    let sigma = &weighing.sigma;
+    let sum = weighing.total(evidence, state);
+    let views = evidence.iter().map(|view| view_fit(view, sigma)).collect();
+    let covariance = sandwich(evidence, weighing, &sum);
+    let inverse = sum.information.try_inverse();
+    let pose_only = inverse
+        .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
+        .unwrap_or_else(Matrix6::zeros);
+    Refinement {
+        camera_from_base: state.camera_from_base,
+        depth_scale: state.depth_scale,
+        outline_px: -state.outline_px,
+        information: pose_only,
+        covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),
+        surface_sigma_m: sigma.surface_m,
+        outline_sigma_px: sigma.outline_px,
+        views,
+        iterations: 0,
+        last_step: Vector6::zeros(),
+        stop: if covariance.is_none() {
+            StopReason::Underdetermined
+        } else {
+            StopReason::Converged
+        },
+    }
+}
+
+/// Whether `information` is of full rank. Rounding, and the damping of the steps, make one that is
+/// not look regular.
+fn determines_all(information: &SMatrix<f64, UNKNOWNS, UNKNOWNS>) -> bool {
+    let scale = information.diagonal().map(|d| d.sqrt().recip());
+    let scaled = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::from_fn(|i, j| {
+        information[(i, j)] * scale[i] * scale[j]
+    });
+    scaled.iter().all(|v| v.is_finite()) && scaled.symmetric_eigenvalues().min() > LEAST_EIGENVALUE
+}
+
+/// Covariance that does not trust the noise model: every link in every view is one patch whose
+/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986).
+fn sandwich(
+    evidence: &[Evidence],
+    weighing: &Weighing,
+    sum: &NormalEquations<UNKNOWNS>,
+) -> Option<Matrix6<f64>> {
+    if !determines_all(&sum.information) {
+        return None;
+    }
+    let bread = sum.information.try_inverse()?;
+    let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+    for view in evidence {
+        let links = view.surface.iter().chain(&view.outline).map(|f| f.link + 1).max().unwrap_or(0);
+        let mut scores = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
+        for factor in &view.surface {
+            let weight = weighing.surface(view, factor);
+            scores[factor.link][0] += factor.jacobian * (weight * factor.residual);
+        }
+        for factor in &view.outline {
+            let weight = weighing.outline(view, factor);
+            scores[factor.link][1] += factor.jacobian * (weight * factor.residual);
+        }
+        for score in scores.iter().flatten() {
+            filling += score * score.transpose();
+        }
+    }
+    filling[(DEPTH_SCALE, DEPTH_SCALE)] += DEPTH_SCALE_PRIOR.powi(-2);
+    filling[(OUTLINE_WIDTH, OUTLINE_WIDTH)] += OUTLINE_PRIOR_PX.powi(-2);
+    let covariance = bread * filling * bread;
+    let pose: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
+    pose.iter().all(|v| v.is_finite()).then(|| (pose + pose.transpose()) * 0.5)
+}
+
+fn view_fit(view: &Evidence, sigma: &Scales) -> ViewFit {
+    let mut surface: Vec<f64> = view.surface.iter().map(|f| f.residual.abs()).collect();
+    let mut outline: Vec<f64> = view.outline.iter().map(|f| f.residual.abs()).collect();
+    ViewFit {
+        inliers: surface.iter().filter(|r| **r < 3.0 * sigma.surface_m).count(),
+        surface_m: median(&mut surface).unwrap_or(f64::INFINITY),
+        outline_px: median(&mut outline),
+        points: view.points,
+    }
+}

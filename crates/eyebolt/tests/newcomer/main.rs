@@ -1,0 +1,9 @@
+//! From a folder of files to an answer, as a newcomer meets it: everything is drawn here, of an arm
+//! that is in the repository, and the truth is known.
+
+mod clouds;
+mod recording;
+mod refusals;
+mod run;
+mod scene;
+mod trusted;

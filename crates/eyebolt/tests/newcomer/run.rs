@@ -1,0 +1,105 @@
+//! A recording through the whole pipeline.
+
+use crate::recording;
+use crate::scene::{CAMERA_FROM_BASE, Shot};
+use eyebolt::answer::Answer;
+use eyebolt::calibrate::{Limits, Verdict};
+use eyebolt::pipeline::{self, Outcome, Request};
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_recording::Folder;
+use eyebolt_registration::LinkCache;
+use eyebolt_robot::{PackageRoots, Robot};
+use nalgebra::Point3;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// What may vary between runs on one recording.
+#[derive(Clone, Copy)]
+pub struct Options {
+    pub use_masks: bool,
+    pub seed: u64,
+}
+
+pub const WITH_MASKS: Options = Options { use_masks: true, seed: 1 };
+pub const WITHOUT_MASKS: Options = Options { use_masks: false, seed: 1 };
+
+/// Made anew for each run of the tests: what another version left there proves nothing.
+static CACHE: LazyLock<LinkCache> = LazyLock::new(|| {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("newcomer-cache");
+    let _ = std::fs::remove_dir_all(&folder);
+    LinkCache::new(folder)
+});
+
+/// What came of a recording.
+pub struct Ran {
+    pub outcome: Outcome,
+    pub answer: Answer,
+}
+
+/// Runs the pipeline on the recording in `folder`.
+pub fn run(folder: &Path, options: Options) -> Ran {
+    let recording = Folder::open(folder).unwrap();
+    let section = recording.robot();
+    let urdf = section.urdf.as_ref().unwrap();
+    let robot = Robot::from_urdf_file(urdf, &PackageRoots::new()).unwrap();
+    let arm = robot.arm(section.base.as_deref(), section.end_effector.as_deref()).unwrap();
+    let request = Request {
+        recording: &recording,
+        arm: &arm,
+        cache: &CACHE,
+        use_masks: options.use_masks,
+        limits: Limits::default(),
+        seed: options.seed,
+    };
+    let outcome = pipeline::run(&request, &()).unwrap();
+    let answer = Answer::new(&request, &outcome);
+    Ran { outcome, answer }
+}
+
+/// Writes `shots` as depth images and runs the pipeline on them.
+pub fn run_depth(shots: &[Shot], options: Options) -> Ran {
+    let folder = tempfile::tempdir().unwrap();
+    recording::write_depth(folder.path(), shots);
+    run(folder.path(), options)
+}
+
+/// An empty folder.
+pub fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+impl Ran {
+    /// The answer; there must be one.
+    pub fn pose(&self) -> Transform<Camera, Base> {
+        self.outcome.calibration.camera_from_base.expect("an answer")
+    }
+
+    pub fn verdict(&self) -> &Verdict {
+        &self.outcome.calibration.verdict
+    }
+
+    /// Says how far the answer is from `truth`, and checks that it is trusted and within these
+    /// bounds.
+    #[track_caller]
+    pub fn assert_trusted(&self, what: &str, truth: &Transform<Camera, Base>, mm: f64, deg: f64) {
+        let (off_mm, off_deg) = difference(&self.pose(), truth);
+        let expected = self.answer.expected_error;
+        println!("{what}: {off_mm:.2} mm, {off_deg:.3} degrees off; {expected:.2?}");
+        assert_eq!(*self.verdict(), Verdict::Trusted, "{what}");
+        assert!(off_mm < mm && off_deg < deg, "{what}: {off_mm:.2} mm, {off_deg:.3} degrees off");
+    }
+}
+
+/// Where the camera is in the base frame, and how it is turned: millimetres and degrees between
+/// the two poses.
+pub fn difference(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> (f64, f64) {
+    let camera = |pose: &Transform<Camera, Base>| pose.inverse().point(&Point3::origin());
+    let angle_rad = a.rotation().angle_to(&b.rotation());
+    (1e3 * (camera(a) - camera(b)).norm(), angle_rad.to_degrees())
+}
+
+/// The truth of the scene.
+pub fn truth() -> Transform<Camera, Base> {
+    *CAMERA_FROM_BASE
+}
