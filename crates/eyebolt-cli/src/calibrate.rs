@@ -46,10 +46,10 @@ pub struct Arguments {
     /// Replace existing files
     #[arg(long)]
     force: bool,
-    /// Expected error up to which an answer is trusted, millimetres
+    /// Expected error up to which an answer is trusted, millimetres [default: 20]
     #[arg(long, value_name = "MM", value_parser = positive)]
     max_error_mm: Option<f64>,
-    /// Expected error up to which an answer is trusted, degrees
+    /// Expected error up to which an answer is trusted, degrees [default: 1.2]
     #[arg(long, value_name = "DEG", value_parser = positive)]
     max_error_deg: Option<f64>,
     /// Seed of the search; the same seed gives the same bytes on any number of threads
@@ -118,8 +118,12 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
 fn limits(arguments: &Arguments) -> Limits {
     let default = Limits::default();
     let expected = Deviation {
-        translation_m: arguments.max_error_mm.map_or(default.expected.translation_m, |mm| 1e-3 * mm),
-        rotation_rad: arguments.max_error_deg.map_or(default.expected.rotation_rad, f64::to_radians),
+        translation_m: arguments
+            .max_error_mm
+            .map_or(default.expected.translation_m, |mm| 1e-3 * mm),
+        rotation_rad: arguments
+            .max_error_deg
+            .map_or(default.expected.rotation_rad, f64::to_radians),
     };
     Limits { expected, ..default }
 }
@@ -128,10 +132,12 @@ fn limits(arguments: &Arguments) -> Limits {
 fn arm(arguments: &Arguments, recording: &Folder) -> Result<Arm> {
     let section = recording.robot();
     let Some(urdf) = arguments.robot.as_ref().or(section.urdf.as_ref()) else {
+        let given = &arguments.recording;
+        let file = if given.is_dir() { given.join("recording.toml") } else { given.clone() };
         bail!(
             "{}: robot.urdf: no robot description is named. Add [robot] urdf = \"...\" or give \
              --robot arm.urdf",
-            arguments.recording.display()
+            file.display()
         );
     };
     let variable = |name| std::env::var(name).ok();

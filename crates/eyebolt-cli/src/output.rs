@@ -1,6 +1,6 @@
 //! Files that appear whole or not at all, and the only places that print.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,10 @@ impl Destination {
     /// For `path`, whose rejected sibling is `*.rejected.json`.
     pub fn new(path: &Path, force: bool) -> Result<Self> {
         let Some(stem) = path.file_stem() else {
-            bail!("{}: --output: not the name of a file. Give one, such as calibration.json", path.display());
+            bail!(
+                "{}: --output: not the name of a file. Give one, such as calibration.json",
+                path.display()
+            );
         };
         let mut name = stem.to_owned();
         name.push(".rejected.json");
@@ -43,9 +46,15 @@ impl Destination {
             bail!("{}: --output: no such folder. Make it first", folder.display());
         }
         // Better told now than after the work.
-        tempfile::NamedTempFile::new_in(folder)
-            .with_context(|| format!("{}: --output: cannot write here", folder.display()))?;
-        Ok(destination)
+        match tempfile::NamedTempFile::new_in(folder) {
+            Ok(_) => Ok(destination),
+            // The kind only: the text names a temporary file that nobody knows.
+            Err(error) => bail!(
+                "{}: --output: cannot write here: {}. Name a file elsewhere",
+                folder.display(),
+                error.kind()
+            ),
+        }
     }
 
     /// Writes a calibration where its verdict belongs; returns where that is.
@@ -80,7 +89,7 @@ pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<()> {
         file.persist(path)?;
         Ok(())
     };
-    write().with_context(|| format!("{}: cannot write", path.display()))
+    write().map_err(|error| anyhow!("{}: cannot write: {}", path.display(), error.kind()))
 }
 
 /// Temporary files are private by default; results are not.

@@ -14,7 +14,9 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
         let _ = writeln!(text, "  {}", frame_line(frame));
     }
     let _ = write!(text, "\nwritten to {}", path.display());
-    if let (Some(first), Some(folder)) = (pictures.first(), pictures.first().and_then(|p| p.parent())) {
+    if let (Some(first), Some(folder)) =
+        (pictures.first(), pictures.first().and_then(|p| p.parent()))
+    {
         let _ = match pictures.len() {
             1 => write!(text, "\npicture in {}", first.display()),
             count => write!(text, "\n{count} pictures in {}", folder.display()),

@@ -51,10 +51,15 @@ pub(crate) fn simplified(mesh: &TriangleMesh, tolerance_m: f32) -> TriangleMesh 
     surface.into_mesh()
 }
 
+/// Cost per metre of length. On a flat face all errors are rounding: the lowest vertex would eat
+/// the others one by one and get thousands of neighbours, each asked again every time.
+const LENGTH_SHARE: f64 = 1e-4;
+
 /// An edge that may become a point. Where is worked out again at its turn: most never have one,
 /// and the queue is the slowest part the larger its entries are.
 struct Collapse {
-    error_m: f64,
+    /// The error and a little of the length, metres: the queue takes the lowest first.
+    cost_m: f64,
     /// The vertex that stays, the lower one, and the vertex that goes.
     ends: [u32; 2],
     /// How often each end had changed when this was worked out: if more since, it is void.
@@ -72,15 +77,17 @@ impl Collapse {
     ) -> Option<Self> {
         let ends = [u.min(v), u.max(v)];
         let (_, error_m) = constraints.best_target(surface, ends)?;
-        Some(Self { error_m, ends, stamps: ends.map(|end| stamps[end as usize]) })
+        let [start, end] = ends.map(|end| surface.points[end as usize]);
+        let cost_m = error_m + LENGTH_SHARE * (end - start).norm();
+        Some(Self { cost_m, ends, stamps: ends.map(|end| stamps[end as usize]) })
     }
 }
 
 impl Ord for Collapse {
-    /// The greatest leaves a heap first: that of the least error, then of the lowest ends.
+    /// The greatest leaves a heap first: that of the least cost, then of the lowest ends.
     fn cmp(&self, other: &Self) -> Ordering {
-        let by_error = other.error_m.total_cmp(&self.error_m);
-        by_error.then(other.ends.cmp(&self.ends)).then(other.stamps.cmp(&self.stamps))
+        let by_cost = other.cost_m.total_cmp(&self.cost_m);
+        by_cost.then(other.ends.cmp(&self.ends)).then(other.stamps.cmp(&self.stamps))
     }
 }
 

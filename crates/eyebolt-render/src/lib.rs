@@ -6,5 +6,5 @@
 mod contour;
 mod raster;
 
-pub use contour::{ContourPoint, contour};
+pub use contour::{ContourPoint, contour, outer_contour};
 pub use raster::{PosedMesh, Raster};

@@ -178,6 +178,11 @@ impl Raster {
         self.height
     }
 
+    /// Inverse depth of every pixel, row by row, 1/m; 0 where nothing is seen.
+    pub fn inverse_depth(&self) -> &[f32] {
+        &self.inverse_depth
+    }
+
     /// Depth at row-major pixel `index`, metres; `None` where nothing is seen.
     pub fn depth_m(&self, index: usize) -> Option<f32> {
         let inverse = self.inverse_depth[index];

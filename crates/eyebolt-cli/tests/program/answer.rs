@@ -39,7 +39,10 @@ fn trusted_ends_with_0_and_says_only_the_summary() {
     let Ended { code, out, err } = &GOOD.ended;
     assert_eq!(*code, Some(0), "out: {out}\nerr: {err}");
     assert!(out.starts_with("TRUSTED (5 of 5 frames used)\n"), "{out}");
-    assert!(out.contains("mm") && out.contains("degrees") && out.contains("translation_m"), "{out}");
+    assert!(
+        out.contains("mm") && out.contains("degrees") && out.contains("translation_m"),
+        "{out}"
+    );
     assert!(out.contains(&format!("written to {}\n", text(&GOOD.desk.file("calibration.json")))));
     assert_eq!(err, "", "no progress bar where there is no terminal");
     assert_eq!(GOOD.desk.names(), ["calibration.json", "pictures"]);
@@ -77,9 +80,22 @@ fn numbers_have_their_unit_in_their_name() {
     collect_names(&json, &mut names);
     // Counts, shares and pixels of the intrinsics have none, and covariances two.
     let plain = [
-        "configuration", "contradicted_share", "covariance", "cx", "cy", "depth_scale_error",
-        "distortion", "fx", "fy", "height", "matrix", "rotation_xyzw", "seed", "silhouette_iou",
-        "unexplained_share", "width",
+        "configuration",
+        "contradicted_share",
+        "covariance",
+        "cx",
+        "cy",
+        "depth_scale_error",
+        "distortion",
+        "fx",
+        "fy",
+        "height",
+        "matrix",
+        "rotation_xyzw",
+        "seed",
+        "silhouette_iou",
+        "unexplained_share",
+        "width",
     ];
     let units = ["_m", "_mm", "_deg", "_px", "_ms"];
     for name in names {
@@ -112,13 +128,13 @@ fn the_two_poses_are_inverse_and_each_spells_one_transform() {
     let (there, back) = (matrix("camera_from_base"), matrix("base_from_camera"));
     assert!((there * back - Matrix4::identity()).amax() < 1e-12);
     for (name, matrix) in [("camera_from_base", there), ("base_from_camera", back)] {
-        let translation_m = Translation3::from(Vector3::from_row_slice(&numbers(
-            &json[name]["translation_m"],
-        )));
+        let translation_m =
+            Translation3::from(Vector3::from_row_slice(&numbers(&json[name]["translation_m"])));
         let [x, y, z, w] = numbers(&json[name]["rotation_xyzw"])[..] else { panic!("{name}") };
         let rotation = Quaternion::new(w, x, y, z);
         assert!((rotation.norm() - 1.0).abs() < 1e-12 && w >= 0.0);
-        let spelled = Isometry3::from_parts(translation_m, UnitQuaternion::from_quaternion(rotation));
+        let spelled =
+            Isometry3::from_parts(translation_m, UnitQuaternion::from_quaternion(rotation));
         assert!((spelled.to_homogeneous() - matrix).amax() < 1e-12);
     }
     assert!((there - CAMERA_FROM_BASE.matrix()).amax() < 0.02, "{there}");

@@ -200,8 +200,9 @@ fn others([a, b, c]: [u32; 3], corner: u32) -> [u32; 2] {
 fn is_line(corners: &[Point3<f64>; 3]) -> bool {
     let [a, b, c] = corners;
     let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
-    // So that what is not a number and what has no extent are lines, too.
-    !(area_normal(corners).norm() > THINNEST * longest)
+    // Neither what is not a number nor what has no extent is thick.
+    let is_thick = area_normal(corners).norm() > THINNEST * longest;
+    !is_thick
 }
 
 /// Twice the area times the unit normal.

@@ -95,11 +95,11 @@ fn distance(p: &Point3<f32>, triangles: &[[Point3<f32>; 3]]) -> f32 {
     triangles.iter().map(|t| (closest_point(p, t) - p).norm()).fold(f32::INFINITY, f32::min)
 }
 
-/// The farthest that a vertex or middle of a triangle of `from` is from the surface of `to`.
+/// The farthest that a first corner or the middle of a triangle of `from` is from `to`.
 fn farthest(from: &TriangleMesh, to: &TriangleMesh) -> f32 {
     let to = corners(to);
-    let middles = corners(from).into_iter().map(|[a, b, c]| (a.coords + b.coords + c.coords) / 3.0);
-    let points = from.vertices.iter().copied().chain(middles.map(Point3::from));
+    let middle = |[a, b, c]: [Point3<f32>; 3]| Point3::from((a.coords + b.coords + c.coords) / 3.0);
+    let points = corners(from).into_iter().flat_map(|t| [t[0], middle(t)]);
     points.map(|p| distance(&p, &to)).fold(0.0, f32::max)
 }
 

@@ -5,7 +5,7 @@ use super::weighing::Scales;
 use crate::arm::ArmModel;
 use crate::factors::{Factor, State, outline_factor, surface_factor};
 use crate::robust::median;
-use eyebolt_render::{Raster, contour};
+use eyebolt_render::{Raster, outer_contour};
 use rayon::prelude::*;
 
 const LEAST_SURFACE_SIGMA_M: f64 = 0.001;
@@ -43,12 +43,11 @@ fn gather_one(
 ) -> Evidence {
     let (camera, posture) = (view.view.camera, view.view.posture);
     raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
-    let cracks = contour(raster, camera);
+    let cracks = outer_contour(raster, camera);
     let stride = cracks.len().div_ceil(CONTOUR_POINTS).max(1);
     let outline = cracks
         .iter()
         .step_by(stride)
-        .filter(|crack| crack.behind_m.is_none())
         .filter_map(|crack| outline_factor(camera, &view.silhouette, state, crack))
         .collect();
     let surface =

@@ -3,6 +3,7 @@
 mod cache;
 mod distance_field;
 mod facets;
+mod interpolation;
 mod link_model;
 mod posture;
 mod refine;

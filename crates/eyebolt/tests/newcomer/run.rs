@@ -24,6 +24,12 @@ pub struct Options {
 pub const WITH_MASKS: Options = Options { use_masks: true, seed: 1 };
 pub const WITHOUT_MASKS: Options = Options { use_masks: false, seed: 1 };
 
+/// Within these of the truth, millimetres and degrees: five times what is reached (0.10 mm and
+/// 0.008 degrees with masks, 0.5 mm and 0.031 degrees without). A camera that is half a pixel off
+/// lies beyond.
+pub const MASKED: (f64, f64) = (0.5, 0.04);
+pub const UNMASKED: (f64, f64) = (2.5, 0.15);
+
 /// Made anew for each run of the tests: what another version left there proves nothing.
 static CACHE: LazyLock<LinkCache> = LazyLock::new(|| {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("newcomer-cache");
@@ -79,15 +85,13 @@ impl Ran {
         &self.outcome.calibration.verdict
     }
 
-    /// Says how far the answer is from `truth`, and checks that it is trusted and within these
-    /// bounds.
+    /// Checks that the answer is trusted and within `bounds` (millimetres, degrees) of `truth`.
     #[track_caller]
-    pub fn assert_trusted(&self, what: &str, truth: &Transform<Camera, Base>, mm: f64, deg: f64) {
+    pub fn assert_trusted(&self, truth: &Transform<Camera, Base>, bounds: (f64, f64)) {
         let (off_mm, off_deg) = difference(&self.pose(), truth);
-        let expected = self.answer.expected_error;
-        println!("{what}: {off_mm:.2} mm, {off_deg:.3} degrees off; {expected:.2?}");
-        assert_eq!(*self.verdict(), Verdict::Trusted, "{what}");
-        assert!(off_mm < mm && off_deg < deg, "{what}: {off_mm:.2} mm, {off_deg:.3} degrees off");
+        assert_eq!(*self.verdict(), Verdict::Trusted);
+        let near = off_mm < bounds.0 && off_deg < bounds.1;
+        assert!(near, "{off_mm:.2} mm, {off_deg:.3} degrees off");
     }
 }
 

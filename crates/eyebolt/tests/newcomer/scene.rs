@@ -64,7 +64,8 @@ static LINKS: LazyLock<(Robot, Vec<(usize, TriangleMesh)>)> = LazyLock::new(|| {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../eyebolt/tests/newcomer/arm.urdf");
     let robot = Robot::from_urdf_file(&path, &PackageRoots::new()).unwrap();
     let links = robot.links.iter().enumerate();
-    let meshes = links.map(|(index, link)| (index, link_mesh(link, Prefer::Visual).unwrap().unwrap()));
+    let meshes =
+        links.map(|(index, link)| (index, link_mesh(link, Prefer::Visual).unwrap().unwrap()));
     let meshes = meshes.collect();
     (robot, meshes)
 });
@@ -114,7 +115,8 @@ fn draw(joints: [f64; 6]) -> Raster {
 fn room_depth_m(u: f64, v: f64) -> f64 {
     let ray = Vector3::new((u - CAMERA.cx()) / CAMERA.fx(), (v - CAMERA.cy()) / CAMERA.fy(), 1.0);
     let base_from_camera = CAMERA_FROM_BASE.inverse();
-    let (from, along) = (base_from_camera.point(&Point3::origin()), base_from_camera.direction(&ray));
+    let (from, along) =
+        (base_from_camera.point(&Point3::origin()), base_from_camera.direction(&ray));
     let depths = ROOM.iter().filter_map(|[low, high]| {
         let (mut enters, mut leaves) = (0.0, f64::INFINITY);
         for axis in 0..3 {
