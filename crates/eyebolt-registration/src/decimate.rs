@@ -15,8 +15,8 @@ use std::collections::BinaryHeap;
 use surface::Surface;
 
 /// `mesh` with as few triangles as edge collapses leave while no vertex is farther than
-/// `tolerance_m` (root mean square over the area that it stands for) from the surface that was
-/// there.
+/// `tolerance_m` (root mean square over the area that it stands for) or twice that (at most) from
+/// the planes that were there. Closed meshes keep their volume.
 ///
 /// Any soup of triangles will do. Vertices at the same place become one, triangles without area
 /// and all but the first on the same corners go; open rims and seams of parts stay where they are

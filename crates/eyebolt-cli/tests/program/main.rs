@@ -2,7 +2,9 @@
 
 mod answer;
 mod files;
+mod good;
 mod messages;
+mod outcome;
 mod program;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;

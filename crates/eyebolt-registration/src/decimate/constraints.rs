@@ -18,6 +18,7 @@ pub(super) struct Constraints {
     held_by: Vec<Vec<u32>>,
 }
 
+/// A plane by its unit normal and one of its points, metres.
 struct Plane {
     normal: Vector3<f64>,
     point: Point3<f64>,
@@ -32,6 +33,7 @@ const FARTHEST: f64 = 2.0;
 const EXACT: f64 = 1e-3;
 
 impl Constraints {
+    /// Each vertex stands for the triangles and rims around it.
     pub(super) fn of(surface: &Surface, tolerance_m: f64) -> Self {
         let count = surface.points.len();
         let mut constraints = Self {
@@ -129,6 +131,7 @@ impl Constraints {
         })
     }
 
+    /// Whether the surface ended or branched where the two vertices are.
     pub(super) fn both_on_rims(&self, u: u32, v: u32) -> bool {
         self.on_rim[u as usize] && self.on_rim[v as usize]
     }

@@ -20,6 +20,8 @@ const LEAST_COSINE: f64 = 0.5;
 /// Height over longest side below which a triangle counts as a line. Its normal is noise of the
 /// single-precision file.
 const THINNEST: f64 = 1e-5;
+/// Least share of the area around an edge that is left when seen from its mean normal.
+const ONE_SIDED: f64 = 0.5;
 /// Twice the area, square metres, under which a triangle is not drawn, as meshes are read.
 const LEAST_DOUBLE_AREA: f64 = 1e-12;
 
@@ -128,7 +130,7 @@ impl Surface {
         }
         let square = normals.norm_squared();
         // Triangles that face anyhow, or a fin: there is no volume to speak of.
-        let one_sided = square > (LEAST_COSINE * areas).powi(2);
+        let one_sided = square > (ONE_SIDED * areas).powi(2);
         one_sided.then(|| (normals, origin + normals * (height / square)))
     }
 
@@ -176,6 +178,7 @@ impl Surface {
         triangle.map(|corner| self.points[corner as usize])
     }
 
+    /// The triangles on the edge between `u` and `v`.
     fn triangles_with(&self, u: u32, v: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
         let [at_u, at_v] = [u, v].map(|end| self.around[end as usize].len());
         let [few, many] = if at_u < at_v { [u, v] } else { [v, u] };

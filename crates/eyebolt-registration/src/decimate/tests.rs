@@ -111,16 +111,17 @@ fn volume(mesh: &TriangleMesh) -> f64 {
     corners(mesh).into_iter().map(cone).sum()
 }
 
-/// Of each edge the triangles on it: positive along it, negative against it, summed.
+/// How many edges have not two triangles, one along and one against them.
 fn open_edges(mesh: &TriangleMesh) -> usize {
-    let mut edges: Vec<([u32; 2], i32)> = Vec::new();
+    let mut edges: Vec<([u32; 2], bool)> = Vec::new();
     for [a, b, c] in &mesh.triangles {
         for [u, v] in [[*a, *b], [*b, *c], [*c, *a]] {
-            edges.push(([u.min(v), u.max(v)], if u < v { 1 } else { -1 }));
+            edges.push(([u.min(v), u.max(v)], u < v));
         }
     }
     edges.sort_unstable();
-    edges.chunk_by(|a, b| a.0 == b.0).filter(|e| e.iter().map(|(_, s)| s).sum::<i32>() != 0).count()
+    let is_closed = |edge: &[([u32; 2], bool)]| matches!(edge, [(_, false), (_, true)]);
+    edges.chunk_by(|a, b| a.0 == b.0).filter(|edge| !is_closed(edge)).count()
 }
 
 #[test]
@@ -194,6 +195,28 @@ fn a_knob_on_a_wide_sheet_stays() {
     assert!(away < 3.0 * TOLERANCE_M, "{away}");
 }
 
+/// Its rings of three edges are no triangles: to collapse one would tie the needle off.
+#[test]
+fn a_needle_thinner_than_the_tolerance_is_not_tied_off() {
+    let around = |turn: u32| {
+        let (sin, cos) = (turn as f32 * std::f32::consts::TAU / 3.0).sin_cos();
+        Vector3::new(0.0002 * cos, 0.0002 * sin, 0.0)
+    };
+    let ring =
+        |height: u32| [0, 1, 2].map(|turn| around(turn) + Vector3::z() * (0.001 * height as f32));
+    let mut triangles = vec![[ring(0)[0], ring(0)[2], ring(0)[1]], ring(50)];
+    for (height, side) in (0..50).flat_map(|height| (0..3).map(move |side| (height, side))) {
+        let (low, high, next) = (ring(height), ring(height + 1), (side + 1) % 3);
+        triangles.push([low[side], low[next], high[next]]);
+        triangles.push([low[side], high[next], high[side]]);
+    }
+    let needle = soup(&triangles);
+    let few = simplified(&needle, TOLERANCE_M);
+    assert!((4..40).contains(&few.triangles.len()), "{} triangles", few.triangles.len());
+    assert_eq!(open_edges(&few), 0);
+    assert!(farthest(&needle, &few) < 2.0 * TOLERANCE_M);
+}
+
 #[test]
 fn what_has_no_surface_gives_none() {
     let point = Point3::new(0.1, 0.2, 0.3);
@@ -208,8 +231,9 @@ fn what_has_no_surface_gives_none() {
 
 #[test]
 fn one_triangle_stays_and_its_copies_go() {
-    let [a, b, c] = [Vector3::zeros(), Vector3::new(0.1, 0.0, -0.0), Vector3::new(0.0, 0.1, 0.0)];
-    let few = simplified(&soup(&[[a, b, c], [b, c, a], [a, c, b]]), TOLERANCE_M);
+    let [a, b, c] = [Vector3::zeros(), Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.1, 0.0)];
+    let minus_zeros = [-a, Vector3::new(0.1, -0.0, 0.0), c];
+    let few = simplified(&soup(&[[a, b, c], [b, c, a], [a, c, b], minus_zeros]), TOLERANCE_M);
     assert_eq!(few, soup(&[[a, b, c]]));
 }
 
