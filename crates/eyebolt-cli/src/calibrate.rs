@@ -10,6 +10,7 @@ use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::progress::{Progress, Step};
 use eyebolt::report::overlay;
+use eyebolt::session::ImageSource;
 use eyebolt_recording::Folder;
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Raster;
@@ -196,7 +197,13 @@ fn save_overlays(
     for configuration in &session.configurations {
         let name = &configuration.frames[0];
         let index = recording.frame_names().iter().position(|other| other == name);
-        let color = index.map(|index| recording.read_color(index)).transpose()?.flatten();
+        let color = index.map(|index| recording.read_color(index)).transpose();
+        // A colour image of another camera, or none: the depth image serves as well.
+        let color = color.unwrap_or_else(|error| {
+            output::complain(&format!("note: {error}; drawn over the depth image instead"));
+            None
+        });
+        let color = color.flatten().filter(|_| session.source != ImageSource::DrawnClouds);
         let pose = &refinement.camera_from_base;
         let picture = overlay(session, configuration, &mut raster, pose, color.as_ref());
         let path = overlay_path(folder, name);

@@ -61,6 +61,16 @@ impl Destination {
     pub fn write(&self, trusted: bool, bytes: &[u8]) -> Result<PathBuf> {
         let path = if trusted { &self.trusted } else { &self.rejected };
         write_whole(path, bytes, self.force)?;
+        if trusted && self.force && self.rejected.exists() {
+            // An earlier refusal beside the answer that replaces it would only confuse.
+            if let Err(error) = std::fs::remove_file(&self.rejected) {
+                complain(&format!(
+                    "note: {}: still there: {}",
+                    self.rejected.display(),
+                    error.kind()
+                ));
+            }
+        }
         Ok(path.clone())
     }
 }
@@ -83,22 +93,23 @@ pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<()> {
     let folder = folder_of(path);
     let write = || -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
-        let mut file = tempfile::Builder::new().permissions(readable()).tempfile_in(folder)?;
+        let mut file = beside(folder)?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
-        file.persist(path)?;
+        if force {
+            file.persist(path)?
+        } else {
+            file.persist_noclobber(path)?
+        };
         Ok(())
     };
     write().map_err(|error| anyhow!("{}: cannot write: {}", path.display(), error.kind()))
 }
 
-/// Temporary files are private by default; results are not.
-#[cfg(unix)]
-fn readable() -> std::fs::Permissions {
-    std::os::unix::fs::PermissionsExt::from_mode(0o644)
-}
-
-#[cfg(not(unix))]
-fn readable() -> std::fs::Permissions {
-    std::fs::metadata(".").map_or_else(|_| unreachable!("the working folder"), |m| m.permissions())
+/// A file in `folder` that others may read, as results may; temporary ones are private by default.
+fn beside(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    builder.tempfile_in(folder)
 }

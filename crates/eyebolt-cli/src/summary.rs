@@ -10,8 +10,12 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
     // Writing to a string cannot fail.
     let _ = verdict(&mut text, answer);
     let _ = evidence(&mut text, answer);
-    for frame in &answer.configurations {
-        let _ = writeln!(text, "  {}", frame_line(frame));
+    for line in answer.configurations.iter().filter_map(frame_line) {
+        let _ = writeln!(text, "  {line}");
+    }
+    if !answer.assumed_joints.is_empty() {
+        let joints = answer.assumed_joints.join(", ");
+        let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
     }
     let _ = write!(text, "\nwritten to {}", path.display());
     if let (Some(first), Some(folder)) =
@@ -69,9 +73,8 @@ fn evidence(text: &mut String, answer: &Answer) -> std::fmt::Result {
     Ok(())
 }
 
-fn frame_line(frame: &FrameOutcome) -> String {
+fn frame_line(frame: &FrameOutcome) -> Option<String> {
     let residual = frame.residual_mm.map(|mm| format!("residual {mm:.1} mm"));
-    let reason = frame.reason.as_ref().map(|reason| format!("not used: {reason}"));
-    let parts: Vec<String> = residual.into_iter().chain(reason).collect();
-    format!("frame {:<12} {}", frame.name, parts.join(", "))
+    let parts: Vec<String> = residual.into_iter().chain(frame.reason.clone()).collect();
+    (!parts.is_empty()).then(|| format!("frame {:<12} {}", frame.name, parts.join(", ")))
 }

@@ -45,6 +45,7 @@ fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, R
     }
     if npy.dtype() == Dtype::Uint16 {
         check_integers(path, unit)?;
+        return Ok(scaled(without_saturated(npy.values()), unit));
     }
     Ok(scaled(npy.values(), unit))
 }
@@ -59,7 +60,15 @@ fn from_png(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, R
     }
     let (samples, _) = image.data.as_chunks::<2>();
     let values = samples.iter().map(|bytes| f32::from(u16::from_be_bytes(*bytes))).collect();
-    Ok(scaled(values, unit))
+    Ok(scaled(without_saturated(values), unit))
+}
+
+/// The largest 16-bit number stands for "nothing seen" with many drivers, and never for 65 m.
+fn without_saturated(mut values: Vec<f32>) -> Vec<f32> {
+    for value in values.iter_mut().filter(|value| **value == f32::from(u16::MAX)) {
+        *value = 0.0;
+    }
+    values
 }
 
 /// Whole metres are no depth.

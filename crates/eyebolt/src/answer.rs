@@ -1,6 +1,7 @@
 //! The calibration as the JSON that others read.
 //!
-//! Every number has its unit in its name; matrices are rows of numbers; quaternions are `xyzw` with
+//! Numbers have their unit in their name (intrinsics and covariance in their description); matrices
+//! are rows of numbers; quaternions are `xyzw` with
 //! `w >= 0`.
 
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
@@ -37,7 +38,8 @@ pub struct Answer {
     pub workspace_in_base_m: Option<[f64; 3]>,
     /// What changes when one configuration is left out.
     pub leave_one_out: Option<LeaveOneOut>,
-    /// Difference between what surfaces alone and outlines alone would say.
+    /// Difference between what surfaces alone and outlines alone would say; `null` if no outline was
+    /// seen.
     pub disagreement: Option<Size>,
     /// Covariance of `camera_from_base`: translation (m), then rotation vector (rad), both along
     /// the camera's axes; the rotation is about the base's origin.
@@ -52,12 +54,18 @@ pub struct Answer {
     pub depth_scale_error: Option<f64>,
     /// By how many pixels the outline seen is wider than the arm's.
     pub outline_excess_px: Option<f64>,
-    /// One for each frame of the recording.
+    /// One for each frame of the recording, frames of one configuration together.
     pub configurations: Vec<FrameOutcome>,
-    /// What was used as image: `depth_images`, `organised_clouds`, `projected_clouds`.
+    /// What was used as image: `depth_images`; `organised_clouds`, whose grid tells the camera;
+    /// `projected_clouds`, drawn with the recording's camera; `drawn_clouds`, with a made-up one.
     pub image_source: Option<&'static str>,
-    /// Intrinsics of the depth images; of clouds, those that their grid tells.
+    /// Intrinsics of the images; `null` if their camera was made up.
     pub intrinsics: Option<Intrinsics>,
+    /// How the axes of the images are turned in the frame of the points: not at all for depth
+    /// images, and hardly for clouds that are in the optical frame as they should be.
+    pub optical_from_image_xyzw: Option<[f64; 4]>,
+    /// Joints of the hand that the recording does not have: they were put at their lower limit.
+    pub assumed_joints: Vec<String>,
     /// Name of the robot in its URDF.
     pub robot: String,
     /// Hash of the URDF's text.
@@ -120,7 +128,7 @@ pub struct FrameOutcome {
     pub name: String,
     /// Number of its arm configuration; frames with the same joints share one and are merged.
     pub configuration: usize,
-    /// Whether it took part in the answer.
+    /// Whether nothing spoke against it; only such frames make a trusted answer.
     pub used: bool,
     /// Median distance of the arm's points from the posed arm, millimetres.
     pub residual_mm: Option<f64>,
@@ -174,7 +182,7 @@ impl Answer {
             expected_error: error.and_then(|error| Size::new(&error.expected)),
             workspace_in_base_m: error.map(|error| error.workspace_in_base.coords.into()),
             leave_one_out: error.and_then(leave_one_out),
-            disagreement: error.and_then(|error| Size::new(&error.disagreement)),
+            disagreement: error.and_then(|error| Size::new(&error.disagreement?)),
             covariance: error.and_then(|error| rows(&error.covariance)),
             contradicted_share: agreement.map(|agreement| agreement.contradicted_share()),
             unexplained_share: agreement.map(|agreement| agreement.unexplained_share()),
@@ -183,7 +191,11 @@ impl Answer {
             outline_excess_px: refinement.map(|refinement| refinement.outline_px),
             configurations: frame_outcomes(calibration),
             image_source: session.map(|session| source_name(&session.source)),
-            intrinsics: session.map(|session| Intrinsics::new(&session.camera)),
+            intrinsics: session
+                .filter(|session| session.source != ImageSource::DrawnClouds)
+                .map(|session| Intrinsics::new(&session.camera)),
+            optical_from_image_xyzw: session.map(|s| s.optical_from_camera.rotation_xyzw()),
+            assumed_joints: session.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
             masks: session.is_some_and(Session::has_masks),
@@ -262,6 +274,7 @@ fn source_name(source: &ImageSource) -> &'static str {
         ImageSource::DepthImages => "depth_images",
         ImageSource::OrganisedClouds { .. } => "organised_clouds",
         ImageSource::ProjectedClouds => "projected_clouds",
+        ImageSource::DrawnClouds => "drawn_clouds",
     }
 }
 

@@ -43,8 +43,7 @@ pub enum Dropped {
     },
     /// The camera saw through a link where the joints put it.
     #[error(
-        "the camera sees through {} where its joints put it ({:.0} % of its pixels): it moved during \
-         the frame, or its joints are not these",
+        "{} is not where its joints put it: the camera sees through {:.0} % of it",
         .0.link, 100.0 * .0.share
     )]
     Misplaced(Misplaced),

@@ -28,21 +28,25 @@ pub fn arm_masks(session: &Session) -> Vec<Mask> {
 /// alone. Configurations whose mask is too small to say anything take no part.
 pub fn start(session: &Session, masks: &[Mask], seed: u64, wanted: usize) -> Vec<Candidate> {
     let whole = session.has_masks();
+    let least = SEARCH_POINTS / 20;
     let count = session.configurations.len();
-    let stride = count.div_ceil(CONFIGURATIONS).max(1);
-    let views: Vec<SearchView<'_>> =
-        (0..count)
-            .into_par_iter()
-            .step_by(stride)
-            .filter_map(|index| {
-                let (configuration, mask) = (&session.configurations[index], &masks[index]);
-                let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
-                let surface = surface(session, configuration, whole);
-                let view = session.view(configuration);
-                (arm_points.len() >= SEARCH_POINTS / 20 && !surface.is_empty())
-                    .then_some(SearchView { view, arm_points, surface })
+    let usable: Vec<usize> = (0..count).filter(|index| masks[*index].count() >= least).collect();
+    let stride = usable.len().div_ceil(CONFIGURATIONS).max(1);
+    let views: Vec<SearchView<'_>> = usable
+        .into_par_iter()
+        .step_by(stride)
+        .filter_map(|index| {
+            let (configuration, mask) = (&session.configurations[index], &masks[index]);
+            let arm_points = points(session, configuration, &mask.eroded(RIM_PX));
+            let surface = surface(session, configuration, whole);
+            let view = session.view(configuration);
+            (arm_points.len() >= least && !surface.is_empty()).then_some(SearchView {
+                view,
+                arm_points,
+                surface,
             })
-            .collect();
+        })
+        .collect();
     search(&session.arm, &views, seed, wanted)
 }
 

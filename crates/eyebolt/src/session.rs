@@ -1,8 +1,9 @@
 //! What a calibration works on: arm configurations as one camera saw them.
 
-use eyebolt_geometry::{Camera, DepthImage, Mask, PinholeCamera, RayTable, Transform};
+use eyebolt_geometry::{
+    Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
+};
 use eyebolt_registration::{ArmModel, Posture, View};
-use eyebolt_robot::JointPositions;
 
 /// Arm configurations, the camera that saw them and the arm.
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Session {
     pub arm: ArmModel,
     /// The configurations, in the order of the recording.
     pub configurations: Vec<Configuration>,
+    /// Joints of the hand that the recording does not have, and that were put at their lower limit.
+    pub assumed_joints: Vec<String>,
 }
 
 /// Where the depth images of a session come from.
@@ -32,8 +35,11 @@ pub enum ImageSource {
         /// Root mean square distance of the points from their pixels.
         residual_px: f64,
     },
-    /// Clouds, drawn as a camera at their origin would see them.
+    /// Clouds, drawn as the recording's camera sees them.
     ProjectedClouds,
+    /// Clouds without a camera or a grid that tells one, drawn as a camera made up for them sees
+    /// them.
+    DrawnClouds,
 }
 
 /// One arm configuration, of one frame or several merged.
@@ -45,8 +51,8 @@ pub struct Configuration {
     pub depth: DepthImage,
     /// The whole arm's pixels, where the recording has them.
     pub mask: Option<Mask>,
-    /// Joint positions.
-    pub joints: JointPositions,
+    /// Where the joints put the end-effector.
+    pub base_from_end_effector: Transform<Base, EndEffector>,
     /// Where they put the links.
     pub posture: Posture,
 }

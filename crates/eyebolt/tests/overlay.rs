@@ -49,7 +49,7 @@ fn session(width: u32, height: u32) -> Session {
         frames: vec!["cube".into()],
         depth: DepthImage::new(width, height, walled).unwrap(),
         mask: None,
-        joints: Default::default(),
+        base_from_end_effector: Transform::identity(),
         posture,
     };
     Session {
@@ -59,6 +59,7 @@ fn session(width: u32, height: u32) -> Session {
         source: ImageSource::DepthImages,
         arm,
         configurations: vec![configuration],
+        assumed_joints: Vec::new(),
     }
 }
 

@@ -54,6 +54,14 @@ fn a_refusal_never_replaces_a_calibration() {
 }
 
 #[test]
+fn a_calibration_clears_away_the_refusal_that_it_replaces() {
+    let desk = Desk::new();
+    fs::write(desk.file("calibration.rejected.json"), "old").unwrap();
+    assert_eq!(desk.calibrate(&["--force"]).code, Some(0));
+    assert_eq!(desk.names(), ["calibration.json"]);
+}
+
+#[test]
 fn the_output_needs_a_folder() {
     let desk = Desk::new();
     let ended = calibrate(Path::new(NOWHERE), &desk.file("missing/calibration.json"), &[]);

@@ -25,7 +25,7 @@ pub(super) fn summarise(state: &State, evidence: &[Evidence], weighing: &Weighin
     Refinement {
         camera_from_base: state.camera_from_base,
         depth_scale: state.depth_scale,
-        outline_px: -state.outline_px,
+        outline_px: state.outline_px,
         information: pose_only,
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),
         surface_sigma_m: sigma.surface_m,

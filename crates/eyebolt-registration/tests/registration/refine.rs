@@ -124,6 +124,23 @@ fn a_depth_that_is_too_short_shows_in_its_scale() {
 }
 
 #[test]
+fn an_outline_seen_too_wide_shows_as_excess() {
+    let scenes = scenes(&truth(), None);
+    for (grow, excess_px) in [(false, 0.0), (true, 1.0)] {
+        let mut views = observed(&scenes);
+        for (view, scene) in views.iter_mut().zip(&scenes) {
+            let mask = if grow { scene.mask.dilated(1) } else { scene.mask.clone() };
+            let labels = Labels::from_fn(0..320, 0..240, |u, v| {
+                if mask.at(u as u32, v as u32) { Label::Arm } else { Label::Background }
+            });
+            view.silhouette = Silhouette::new(&labels);
+        }
+        let found_px = refined(&views, &truth(), Trust::Both).outline_px;
+        assert!((found_px - excess_px).abs() < 0.3, "{found_px} instead of {excess_px} pixels");
+    }
+}
+
+#[test]
 fn one_thread_or_two_give_the_same_bytes() {
     let scenes = scenes(&truth(), None);
     let views = observed(&scenes);

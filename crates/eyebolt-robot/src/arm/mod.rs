@@ -102,6 +102,11 @@ impl Arm {
         self.robot.links.get(self.end_effector).map_or("", |link| &link.name)
     }
 
+    /// Whether `link` is the base or below it: what the base stands on is not the arm.
+    pub fn is_below_base(&self, link: usize) -> bool {
+        self.below_base.get(link).copied().unwrap_or(false)
+    }
+
     /// Indices of the end-effector link and of every link below it, fingers included.
     pub fn end_effector_links(&self) -> Vec<usize> {
         let indices = self.below_end_effector.iter().enumerate();

@@ -30,7 +30,13 @@ pub struct Agreement {
 const STRIDE: usize = 2;
 
 impl Agreement {
-    /// Share of the posed arm's pixels that are contradicted, of those that can be judged.
+    /// Whether anything of the posed arm could be judged at all.
+    pub fn is_in_view(&self) -> bool {
+        self.agree + self.contradict > 0
+    }
+
+    /// Share of the posed arm's pixels that are contradicted, of those that can be judged; all if
+    /// none can.
     pub fn contradicted_share(&self) -> f64 {
         share(self.contradict, self.agree)
     }
@@ -91,7 +97,7 @@ pub fn agreement(
     .collect()
 }
 
-/// Half of what registration tolerates while it searches: a found pose has to fit better.
+/// Less than registration tolerates while it searches: a found pose has to fit better.
 fn tolerance_m(z: f32) -> f32 {
     0.6 * View::tolerance_m(z)
 }

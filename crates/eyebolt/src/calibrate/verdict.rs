@@ -71,6 +71,12 @@ pub enum Reason {
         /// What does not fit.
         problem: String,
     },
+    /// Nothing that was seen can be held against the posed arm.
+    #[error(
+        "nothing was seen where the posed arm would be: check that the arm is in view and that the \
+         depth images are not empty there"
+    )]
+    OutOfView,
     /// The evidence leaves the pose open.
     #[error("the data do not determine the pose: record the arm in positions farther apart")]
     Underdetermined,
@@ -98,7 +104,7 @@ pub enum Reason {
     },
     /// The camera sees through the posed arm.
     #[error(
-        "{percent:.0} % of the posed arm's pixels are contradicted by what the camera saw (at most \
+        "{percent:.0} % of the posed arm's pixels are contradicted by depth or mask (at most \
          {limit:.0} % are trusted): the robot description or the joints are not this arm's"
     )]
     Contradicted {
@@ -167,18 +173,28 @@ pub(crate) fn nothing_found(
 
 /// Weighs the evidence.
 pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
-    let mut reasons = Vec::new();
-    reasons.extend(misplaced(evidence.outcomes));
+    let mut reasons: Vec<Reason> = misplaced(evidence.outcomes).into_iter().collect();
     if reasons.is_empty() {
         reasons.extend(few_configurations(evidence.outcomes, limits));
     }
-    reasons.extend(stopped(evidence.refinement));
-    reasons.extend(disagreement(evidence));
-    if evidence.rival.is_some_and(|margin| margin < RIVAL_MARGIN) {
-        reasons.push(Reason::Ambiguous);
+    if evidence.refinement.stop == StopReason::Underdetermined {
+        reasons.push(Reason::Underdetermined);
+        return Verdict::Refused(reasons);
     }
-    reasons.extend(inaccurate(&evidence.error.expected, limits));
+    reasons.extend(disagreement(evidence));
+    // How exact an answer is matters only if it is one: advice on accuracy would mislead.
+    if reasons.is_empty() || reasons.iter().all(is_few_configurations) {
+        reasons.extend(stopped(evidence.refinement));
+        if evidence.rival.is_some_and(|margin| margin < RIVAL_MARGIN) {
+            reasons.push(Reason::Ambiguous);
+        }
+        reasons.extend(inaccurate(&evidence.error.expected, limits));
+    }
     if reasons.is_empty() { Verdict::Trusted } else { Verdict::Refused(reasons) }
+}
+
+fn is_few_configurations(reason: &Reason) -> bool {
+    matches!(reason, Reason::FewConfigurations { .. })
 }
 
 fn few_configurations(outcomes: &[ConfigurationOutcome], limits: &Limits) -> Option<Reason> {
@@ -205,9 +221,6 @@ pub(crate) fn may_be_dropped(count: usize, outcomes: &[ConfigurationOutcome]) ->
 }
 
 fn stopped(refinement: &Refinement) -> Option<Reason> {
-    if refinement.stop == StopReason::Underdetermined {
-        return Some(Reason::Underdetermined);
-    }
     let step = &refinement.last_step;
     let (metres, radians) = (step.fixed_rows::<3>(0).norm(), step.fixed_rows::<3>(3).norm());
     (metres > SETTLED_M || radians > SETTLED_RAD).then(|| Reason::NotSettled {
@@ -222,6 +235,9 @@ fn disagreement(evidence: &Evidence<'_>) -> Vec<Reason> {
     let unexplained_limit =
         if evidence.masks { UNEXPLAINED_OF_MASKS } else { UNEXPLAINED_OF_MOVING };
     let (contradicted, unexplained) = (all.contradicted_share(), all.unexplained_share());
+    if !all.is_in_view() {
+        return vec![Reason::OutOfView];
+    }
     let mut reasons = Vec::new();
     if contradicted > CONTRADICTED_SHARE {
         let (percent, limit) = (100.0 * contradicted, 100.0 * CONTRADICTED_SHARE);

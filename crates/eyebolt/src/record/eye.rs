@@ -17,7 +17,25 @@ pub(crate) struct Eye {
 
 /// The camera of the recording; else the one that the grid of its clouds tells; else one that looks
 /// at the middle of the first cloud.
+///
+/// # Errors
+///
+/// No camera can be told, or one of more pixels than any has.
 pub(crate) fn find(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError> {
+    let eye = any_size(folder, frames)?;
+    let pixels = eye.camera.pixel_count();
+    if pixels > MOST_PIXELS {
+        let frame = frames.first().map(|frame| frame.name.clone()).unwrap_or_default();
+        let problem = format!("the camera has {pixels} pixels, more than {MOST_PIXELS}");
+        return Err(RecordError::Projection { frame, problem });
+    }
+    Ok(eye)
+}
+
+/// Images of more pixels would fill the memory.
+const MOST_PIXELS: usize = 100_000_000;
+
+fn any_size(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError> {
     let cloud = frames.iter().find_map(|frame| match &frame.range {
         Range::Cloud(cloud) => Some((frame, cloud)),
         Range::Depth(_) => None,
@@ -58,6 +76,17 @@ const POINTS_PER_PIXEL: f64 = 3.0;
 /// Tangent of the widest angle from the axis.
 const WIDEST: f64 = 2.75;
 const FEWEST_POINTS: usize = 500;
+/// Share of the points that has to be in view; stray ones need not.
+const IN_VIEW: f64 = 0.98;
+
+/// The range of `values` without the outermost hundredth on either side, widened by as much.
+fn nearly_all(values: &mut [f64]) -> Option<(f64, f64)> {
+    let strays = values.len() / 100;
+    values.sort_unstable_by(f64::total_cmp);
+    let (low, high) = (*values.get(strays)?, *values.get(values.len().checked_sub(1 + strays)?)?);
+    let border = 0.02 * (high - low);
+    Some((low - border, high + border))
+}
 
 /// A camera at the origin that looks at the middle of `cloud` and has it all in view.
 fn looking_at(cloud: &Cloud) -> Option<Eye> {
@@ -68,32 +97,32 @@ fn looking_at(cloud: &Cloud) -> Option<Eye> {
         UnitQuaternion::rotation_between(&axis, &Vector3::z()).unwrap_or_else(|| {
             UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
         });
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    for point in cloud.valid() {
-        let p = camera_from_cloud * point.coords.cast::<f64>();
-        for (axis, value) in [p.x / p.z, p.y / p.z].into_iter().enumerate() {
-            if p.z <= 0.0 || value.abs() > WIDEST {
-                return None;
-            }
-            low[axis] = low[axis].min(value);
-            high[axis] = high[axis].max(value);
-        }
+    let (mut across, mut down): (Vec<f64>, Vec<f64>) = cloud
+        .valid()
+        .map(|point| camera_from_cloud * point.coords.cast::<f64>())
+        .filter(|p| p.z > 0.0 && p.x.abs() < WIDEST * p.z && p.y.abs() < WIDEST * p.z)
+        .map(|p| (p.x / p.z, p.y / p.z))
+        .unzip();
+    if (across.len() as f64) < IN_VIEW * cloud.count_valid() as f64 {
+        return None;
     }
+    let (low_x, high_x) = nearly_all(&mut across)?;
+    let (low_y, high_y) = nearly_all(&mut down)?;
     let count = cloud.count_valid();
-    let (width, height) = (high[0] - low[0], high[1] - low[1]);
-    if count < FEWEST_POINTS || width <= 0.0 || height <= 0.0 {
+    let (width, height) = (high_x - low_x, high_y - low_y);
+    // Points along a line have no image.
+    if count < FEWEST_POINTS || width.min(height) < 0.01 * width.max(height) {
         return None;
     }
     let focal = (count as f64 / POINTS_PER_PIXEL / (width * height)).sqrt();
     let pixels = |extent: f64| (extent * focal).ceil() as u32 + 1;
-    let (cx, cy) = (-low[0] * focal, -low[1] * focal);
+    let (cx, cy) = (-low_x * focal, -low_y * focal);
     let camera =
         PinholeCamera::new(pixels(width), pixels(height), focal, focal, cx, cy, Distortion::None);
     Some(Eye {
         camera: camera.ok()?,
         optical_from_camera: turn(&camera_from_cloud.inverse()),
-        source: ImageSource::ProjectedClouds,
+        source: ImageSource::DrawnClouds,
     })
 }
 

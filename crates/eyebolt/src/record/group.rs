@@ -1,20 +1,22 @@
 //! Frames of one arm configuration, merged.
 
-use eyebolt_geometry::{DepthImage, Mask};
-use eyebolt_robot::JointPositions;
+use eyebolt_geometry::{Base, DepthImage, Link, Mask, Transform};
 use rayon::prelude::*;
 
-/// Frames whose joints differ by no more than this show the same configuration: 0.2 degrees, or
-/// as many millimetres as that moves at an arm's length (3 mm) for sliding joints.
-const SAME_JOINTS: f64 = 3.5e-3;
+/// Frames whose links are this near to each other show the same configuration: more than encoders
+/// at rest make of it, less than anyone moves an arm on purpose.
+const SAME_M: f64 = 5e-3;
+const SAME_RAD: f64 = 1e-2;
 
-/// Indices of the frames of each configuration, in order of appearance.
+/// Indices of the frames of each configuration, in order of appearance; `poses` has the poses of
+/// the arm's links in each frame.
 ///
-/// A frame joins the first configuration whose first frame has the same joints.
-pub(crate) fn group(joints: &[&JointPositions]) -> Vec<Vec<usize>> {
+/// A frame joins the first configuration whose first frame has the arm in the same place. The
+/// links decide, not the joints: a recording may hold joints of other things.
+pub(crate) fn group(poses: &[Vec<Transform<Base, Link>>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (index, positions) in joints.iter().enumerate() {
-        let known = groups.iter_mut().find(|group| same(joints[group[0]], positions));
+    for (index, links) in poses.iter().enumerate() {
+        let known = groups.iter_mut().find(|group| same(&poses[group[0]], links));
         match known {
             Some(group) => group.push(index),
             None => groups.push(vec![index]),
@@ -23,11 +25,11 @@ pub(crate) fn group(joints: &[&JointPositions]) -> Vec<Vec<usize>> {
     groups
 }
 
-fn same(a: &JointPositions, b: &JointPositions) -> bool {
-    a.len() == b.len()
-        && a.iter().all(|(name, value)| {
-            b.get(name).is_some_and(|other| (value - other).abs() <= SAME_JOINTS)
-        })
+fn same(a: &[Transform<Base, Link>], b: &[Transform<Base, Link>]) -> bool {
+    a.iter().zip(b).all(|(a, b)| {
+        let (metres, radians) = a.distance_to(b);
+        metres <= SAME_M && radians <= SAME_RAD
+    })
 }
 
 /// Median depth of each pixel over `images` of one size; 0 where fewer than half saw anything.

@@ -3,6 +3,7 @@
 use crate::recording::{npy_f32, write, write_masks, write_rest};
 use crate::run::{
     MASKED, Ran, UNMASKED, WITH_MASKS, WITHOUT_MASKS, difference, folder, run, run_depth, truth,
+    try_run,
 };
 use crate::scene::{CAMERA, Random, Shot, shots};
 use eyebolt_geometry::Transform;
@@ -83,7 +84,35 @@ fn a_bag_of_points_is_enough() {
     }
     write_rest(folder.path(), &frames, "", "cloud = \"xyz_{}.npy\"\ncloud_frame = \"optical\"");
     let ran = run(folder.path(), WITHOUT_MASKS);
-    assert_eq!(ran.answer.image_source, Some("projected_clouds"));
+    assert_eq!(ran.answer.image_source, Some("drawn_clouds"));
+    assert!(ran.answer.intrinsics.is_none(), "of a camera that nobody has");
     // Drawn on a coarser grid than the camera's: 1.1 mm and 0.03 degrees.
     ran.assert_trusted(&truth(), (5.0, 0.2));
+}
+
+#[test]
+fn a_cloud_and_mask_of_another_size_are_an_error() {
+    let (folder, frames) = (folder(), shots());
+    let (width, height) = (CAMERA.width() as usize, CAMERA.height() as usize);
+    write_masks(folder.path(), &frames);
+    for (index, shot) in frames.iter().enumerate() {
+        let mut points = points(shot);
+        let mut shape = [height, width, 3];
+        if index == 2 {
+            // The upper half of the image only, with a mask to fit.
+            points.truncate(height / 2 * width);
+            shape[0] = height / 2;
+            let mut bytes = Vec::new();
+            let mut encoder = png::Encoder::new(&mut bytes, CAMERA.width(), CAMERA.height() / 2);
+            encoder.set_color(png::ColorType::Grayscale);
+            let white = vec![255; points.len()];
+            encoder.write_header().unwrap().write_image_data(&white).unwrap();
+            write(folder.path(), "mask_2.png", &bytes);
+        }
+        write(folder.path(), &format!("xyz_{index}.npy"), &array(&shape, &points));
+    }
+    let range = "cloud = \"xyz_{}.npy\"\ncloud_frame = \"optical\"\nmask = \"mask_{}.png\"";
+    write_rest(folder.path(), &frames, "", range);
+    let error = try_run(folder.path(), WITH_MASKS).err().unwrap().to_string();
+    assert!(error.contains("frame 2") && error.contains("mask"), "{error}");
 }

@@ -4,6 +4,7 @@
 mod clouds;
 mod recording;
 mod refusals;
+mod robots;
 mod run;
 mod scene;
 mod trusted;

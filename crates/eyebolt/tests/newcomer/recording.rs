@@ -57,7 +57,7 @@ pub fn npy_f32(shape: &[usize], values: &[f32]) -> Vec<u8> {
     npy("<f4", shape, values.iter().flat_map(|value| value.to_le_bytes()).collect())
 }
 
-fn npy_f64(shape: &[usize], values: &[f64]) -> Vec<u8> {
+pub fn npy_f64(shape: &[usize], values: &[f64]) -> Vec<u8> {
     npy("<f8", shape, values.iter().flat_map(|value| value.to_le_bytes()).collect())
 }
 

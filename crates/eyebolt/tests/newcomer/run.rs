@@ -5,6 +5,7 @@ use crate::scene::{CAMERA_FROM_BASE, Shot};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
+use eyebolt::record::RecordError;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::Folder;
 use eyebolt_registration::LinkCache;
@@ -44,6 +45,11 @@ pub struct Ran {
 
 /// Runs the pipeline on the recording in `folder`.
 pub fn run(folder: &Path, options: Options) -> Ran {
+    try_run(folder, options).unwrap()
+}
+
+/// As [`run`], for recordings that may not be read.
+pub fn try_run(folder: &Path, options: Options) -> Result<Ran, RecordError> {
     let recording = Folder::open(folder).unwrap();
     let section = recording.robot();
     let urdf = section.urdf.as_ref().unwrap();
@@ -57,9 +63,9 @@ pub fn run(folder: &Path, options: Options) -> Ran {
         limits: Limits::default(),
         seed: options.seed,
     };
-    let outcome = pipeline::run(&request, &()).unwrap();
+    let outcome = pipeline::run(&request, &())?;
     let answer = Answer::new(&request, &outcome);
-    Ran { outcome, answer }
+    Ok(Ran { outcome, answer })
 }
 
 /// Writes `shots` as depth images and runs the pipeline on them.
