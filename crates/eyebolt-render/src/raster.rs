@@ -59,6 +59,45 @@ fn pixels_between([a, b, c]: [f32; 3], limit: usize) -> Option<(usize, usize)> {
     (first <= last).then_some((first, last))
 }
 
+/// One barycentric weight: `at_a + by_u * du + by_v * dv` at an offset from corner `a`.
+struct Side {
+    by_u: f32,
+    by_v: f32,
+    at_a: f32,
+    inverse: f32,
+}
+
+/// A hair of a triangle's size, so that no pixel falls between two neighbours.
+const SLACK: f32 = 1e-5;
+
+/// First and last of the columns `u0..=u1` whose pixels in the row at `dv` from corner `a` lie on
+/// the positive side of all `sides`.
+fn columns(sides: &[Side; 3], dv: f32, a_u: f32, u0: usize, u1: usize) -> Option<(usize, usize)> {
+    let (mut low, mut high) = (u0 as f32, u1 as f32);
+    for side in sides {
+        let here = side.at_a + side.by_v * dv + SLACK;
+        if side.by_u == 0.0 {
+            if here < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let column = a_u - here * side.inverse;
+        if side.by_u > 0.0 {
+            low = low.max(column);
+        } else {
+            high = high.min(column);
+        }
+    }
+    if low > high {
+        return None;
+    }
+    let truncated = low as usize;
+    let first = truncated + usize::from((truncated as f32) < low);
+    let last = high as usize;
+    (first <= last).then_some((first, last))
+}
+
 /// Surfaces nearer than this to the camera's centre are not drawn, metres.
 const NEAR_M: f64 = 0.02;
 
@@ -138,26 +177,25 @@ impl Raster {
         }
         let Some((u0, u1)) = pixels_between([a.u, b.u, c.u], self.width) else { return };
         let Some((v0, v1)) = pixels_between([a.v, b.v, c.v], self.height) else { return };
-        // Barycentric weights and inverse depth are affine in the pixel.
+        // Barycentric weights and inverse depth are affine in the pixel: along a row each weight
+        // is positive on one side of a column, and the triangle lies between these columns.
         let scale = 1.0 / area;
-        let wb_u = (c.v - a.v) * scale;
-        let wb_v = -(c.u - a.u) * scale;
-        let wc_u = -(b.v - a.v) * scale;
-        let wc_v = (b.u - a.u) * scale;
+        let (wb_u, wb_v) = ((c.v - a.v) * scale, -(c.u - a.u) * scale);
+        let (wc_u, wc_v) = (-(b.v - a.v) * scale, (b.u - a.u) * scale);
+        let sides = [(wb_u, wb_v, 0.0), (wc_u, wc_v, 0.0), (-wb_u - wc_u, -wb_v - wc_v, 1.0)]
+            .map(|(by_u, by_v, at_a)| Side { by_u, by_v, at_a, inverse: 1.0 / by_u });
         let (db, dc) = (b.inverse_z - a.inverse_z, c.inverse_z - a.inverse_z);
+        let (z_u, z_v) = (wb_u * db + wc_u * dc, wb_v * db + wc_v * dc);
         for v in v0..=v1 {
             let dv = v as f32 - a.v;
+            let Some((first, last)) = columns(&sides, dv, a.u, u0, u1) else { continue };
             let row = v * self.width;
-            let depths = &mut self.inverse_depth[row + u0..=row + u1];
-            let links = &mut self.link[row + u0..=row + u1];
-            for (u, (depth, seen)) in depths.iter_mut().zip(links).enumerate() {
-                let du = (u0 + u) as f32 - a.u;
-                let wb = wb_u * du + wb_v * dv;
-                let wc = wc_u * du + wc_v * dv;
-                let inverse_z = a.inverse_z + wb * db + wc * dc;
-                // A hair of slack, so that no pixel falls between two neighbours.
-                let inside = wb >= -1e-5 && wc >= -1e-5 && wb + wc <= 1.00002;
-                if inside && inverse_z > *depth {
+            let depths = self.inverse_depth[row + first..row + last + 1].iter_mut();
+            let links = self.link[row + first..row + last + 1].iter_mut();
+            let start = a.inverse_z + z_v * dv + z_u * (first as f32 - a.u);
+            for (u, (depth, seen)) in depths.zip(links).enumerate() {
+                let inverse_z = start + z_u * u as f32;
+                if inverse_z > *depth {
                     *depth = inverse_z;
                     *seen = link;
                 }

@@ -18,6 +18,12 @@ pub(crate) struct Choice {
 const SAME_M: f64 = 0.04;
 const SAME_RAD: f64 = 0.05;
 
+/// A start this near to a pose that was found from another one, and that explains this much, would
+/// only lead there again.
+const REACH_M: f64 = 0.15;
+const REACH_RAD: f64 = 0.25;
+const GOOD: f64 = 0.4;
+
 /// A candidate that the search scores this many times worse than the best cannot be the answer.
 const HOPELESS: f64 = 2.0;
 
@@ -28,16 +34,20 @@ pub(crate) fn choose(work: &mut Work<'_>, candidates: &[Candidate]) -> Option<Ch
         return None;
     }
     let hopeful = candidates.first()?.score() * HOPELESS;
-    let mut scored: Vec<(f64, Transform<Camera, Base>)> = candidates
-        .iter()
-        .filter(|candidate| candidate.score() <= hopeful)
-        .map(|candidate| {
-            let start = &candidate.camera_from_base;
-            let (short, _) = refine(work.session, &work.views, &mut work.rasters, start, OPENING);
-            let all = total(&work.agreement(&short.camera_from_base));
-            (all.contradicted_share() + all.unexplained_share(), short.camera_from_base)
-        })
-        .collect();
+    let mut scored: Vec<(f64, Transform<Camera, Base>)> = Vec::new();
+    for candidate in candidates.iter().filter(|candidate| candidate.score() <= hopeful) {
+        let start = &candidate.camera_from_base;
+        let leads_to = |(score, pose): &(f64, Transform<Camera, Base>)| {
+            let (metres, radians) = pose.distance_to(start);
+            *score < GOOD && metres < REACH_M && radians < REACH_RAD
+        };
+        if scored.iter().any(leads_to) {
+            continue;
+        }
+        let (short, _) = refine(work.session, &work.views, &mut work.rasters, start, OPENING);
+        let all = total(&work.agreement(&short.camera_from_base));
+        scored.push((all.contradicted_share() + all.unexplained_share(), short.camera_from_base));
+    }
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (best, camera_from_base) = *scored.first()?;
     let other = scored.iter().find(|(_, pose)| {
