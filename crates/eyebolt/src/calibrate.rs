@@ -116,11 +116,13 @@ pub fn calibrate(
     progress.begin(Step::Calibrate);
     work.measure(&refinement, &mut outcomes);
     let error = error::estimate(&mut work, &refinement, &observed);
+    let pose = refinement.camera_from_base;
+    let rival = choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &pose));
     let evidence = verdict::Evidence {
         refinement: &refinement,
         outcomes: &outcomes,
         error: &error,
-        rival: choice.rival,
+        rival,
         masks: session.has_masks(),
     };
     let verdict = verdict::judge(&evidence, limits);

@@ -9,10 +9,12 @@ use eyebolt_registration::Candidate;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Choice {
     pub camera_from_base: Transform<Camera, Base>,
-    /// How much less another pose explains, if there is one that is clearly another: share of
-    /// pixels, contradicted and unexplained, beyond the best's.
-    pub rival: Option<f64>,
+    /// The best of the poses that are clearly other ones, if it explains nearly as much.
+    pub rival: Option<Transform<Camera, Base>>,
 }
+
+/// A rival has to leave this much more of the pixels contradicted or unexplained to be none.
+const RIVAL_MARGIN: f64 = 0.10;
 
 /// Poses nearer to each other than this are one.
 const SAME_M: f64 = 0.04;
@@ -50,11 +52,34 @@ pub(crate) fn choose(work: &mut Work<'_>, candidates: &[Candidate]) -> Option<Ch
     }
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (best, camera_from_base) = *scored.first()?;
-    let other = scored.iter().find(|(_, pose)| {
-        let (metres, radians) = pose.distance_to(&camera_from_base);
-        metres > SAME_M || radians > SAME_RAD
-    });
-    Some(Choice { camera_from_base, rival: other.map(|(score, _)| score - best) })
+    let rival = scored
+        .iter()
+        .find(|(score, pose)| *score < best + RIVAL_MARGIN && is_another(pose, &camera_from_base));
+    Some(Choice { camera_from_base, rival: rival.map(|(_, pose)| *pose) })
+}
+
+fn is_another(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> bool {
+    let (metres, radians) = a.distance_to(b);
+    metres > SAME_M || radians > SAME_RAD
+}
+
+/// Whether `rival`, refined to its end, still is another pose than `answer` and explains nearly as
+/// much.
+pub(crate) fn stands(
+    work: &mut Work<'_>,
+    rival: &Transform<Camera, Base>,
+    answer: &Transform<Camera, Base>,
+) -> bool {
+    if work.views.is_empty() {
+        return false;
+    }
+    let (refined, _) = work.refine(rival);
+    let mut score = |pose: &Transform<Camera, Base>| {
+        let all = total(&work.agreement(pose));
+        all.contradicted_share() + all.unexplained_share()
+    };
+    is_another(&refined.camera_from_base, answer)
+        && score(&refined.camera_from_base) < score(answer) + RIVAL_MARGIN
 }
 
 /// All views' counts together.

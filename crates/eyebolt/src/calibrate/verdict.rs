@@ -30,8 +30,6 @@ const CONTRADICTED_SHARE: f64 = 0.25;
 const UNEXPLAINED_OF_MASKS: f64 = 0.25;
 /// Likewise of what moved, which shadows and reflections add to.
 const UNEXPLAINED_OF_MOVING: f64 = 0.45;
-/// A rival has to explain this share less than the answer does.
-const RIVAL_MARGIN: f64 = 0.10;
 /// A last step larger than this says that the refinement was still on its way.
 const SETTLED_M: f64 = 2e-3;
 const SETTLED_RAD: f64 = 2e-3;
@@ -153,7 +151,8 @@ pub(crate) struct Evidence<'a> {
     pub refinement: &'a Refinement,
     pub outcomes: &'a [ConfigurationOutcome],
     pub error: &'a ErrorEstimate,
-    pub rival: Option<f64>,
+    /// Whether another pose explains nearly as much.
+    pub rival: bool,
     pub masks: bool,
 }
 
@@ -185,7 +184,7 @@ pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
     if reasons.is_empty() || reasons.iter().all(is_few_configurations) {
         reasons.extend(stopped(evidence.refinement));
-        if evidence.rival.is_some_and(|margin| margin < RIVAL_MARGIN) {
+        if evidence.rival {
             reasons.push(Reason::Ambiguous);
         }
         reasons.extend(inaccurate(&evidence.error.expected, limits));
