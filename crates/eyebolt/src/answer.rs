@@ -63,7 +63,7 @@ pub struct Answer {
     pub intrinsics: Option<Intrinsics>,
     /// How the axes of the images are turned in the frame of the points: not at all for depth
     /// images, and hardly for clouds that are in the optical frame as they should be.
-    pub optical_from_image_xyzw: Option<[f64; 4]>,
+    pub optical_from_image: Option<Turn>,
     /// Joints of the hand that the recording does not have: they were put at their lower limit.
     pub assumed_joints: Vec<String>,
     /// Name of the robot in its URDF.
@@ -101,6 +101,13 @@ pub struct Pose {
     pub rotation_xyzw: [f64; 4],
     /// Homogeneous matrix, rows; metres.
     pub matrix: [[f64; 4]; 4],
+}
+
+/// A rotation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Turn {
+    /// Hamilton quaternion.
+    pub rotation_xyzw: [f64; 4],
 }
 
 /// Size of a deviation.
@@ -194,7 +201,8 @@ impl Answer {
             intrinsics: session
                 .filter(|session| session.source != ImageSource::DrawnClouds)
                 .map(|session| Intrinsics::new(&session.camera)),
-            optical_from_image_xyzw: session.map(|s| s.optical_from_camera.rotation_xyzw()),
+            optical_from_image: session
+                .map(|session| Turn { rotation_xyzw: session.optical_from_camera.rotation_xyzw() }),
             assumed_joints: session.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
