@@ -97,15 +97,8 @@ pub fn calibrate(
     let candidates = pose::start(session, &masks, seed, CANDIDATES);
     progress.begin(Step::Refine);
     let Some(choice) = shortlist::choose(&mut work, &candidates) else {
-        let verdict = verdict::nothing_found(session, &outcomes, limits);
-        let (configurations, error) = (outcomes, None);
-        return Calibration {
-            camera_from_base: None,
-            refinement: None,
-            configurations,
-            error,
-            verdict,
-        };
+        let verdict = verdict::nothing_found(&outcomes, limits);
+        return Calibration { configurations: outcomes, ..Calibration::without_pose(verdict) };
     };
     let (mut refinement, mut observed) = work.refine(&choice.camera_from_base);
     let misplaced = work.find_misplaced(&refinement, &mut outcomes);

@@ -2,7 +2,6 @@
 
 use super::shortlist::total;
 use super::{Agreement, ConfigurationOutcome, Deviation, Dropped, ErrorEstimate};
-use crate::session::Session;
 use eyebolt_registration::{Refinement, StopReason};
 
 /// What an answer has to meet to be trusted.
@@ -157,17 +156,9 @@ pub(crate) struct Evidence<'a> {
 }
 
 /// The verdict where there is no pose at all.
-pub(crate) fn nothing_found(
-    session: &Session,
-    outcomes: &[ConfigurationOutcome],
-    limits: &Limits,
-) -> Verdict {
-    let mut reasons = Vec::new();
-    if session.configurations.len() < limits.configurations {
-        reasons.extend(few_configurations(outcomes, limits));
-    }
-    reasons.push(Reason::NothingFound);
-    Verdict::Refused(reasons)
+pub(crate) fn nothing_found(outcomes: &[ConfigurationOutcome], limits: &Limits) -> Verdict {
+    let few = few_configurations(outcomes, limits);
+    Verdict::Refused(few.into_iter().chain([Reason::NothingFound]).collect())
 }
 
 /// Weighs the evidence.
@@ -182,7 +173,7 @@ pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
     }
     reasons.extend(disagreement(evidence));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
-    if reasons.is_empty() || reasons.iter().all(is_few_configurations) {
+    if reasons.iter().all(is_few_configurations) {
         reasons.extend(stopped(evidence.refinement));
         if evidence.rival {
             reasons.push(Reason::Ambiguous);
