@@ -121,6 +121,17 @@ impl RayTable {
         &self.rays
     }
 
+    /// The point at depth `z_m` along the ray of row-major pixel `index`, camera frame; NaN where the
+    /// lens has no ray.
+    ///
+    /// # Panics
+    ///
+    /// Beyond the last pixel.
+    pub fn point(&self, index: usize, z_m: f32) -> Point3<f32> {
+        let [x, y] = self.rays[index];
+        Point3::new(x * z_m, y * z_m, z_m)
+    }
+
     /// The organised cloud of `image` in the camera frame, metres.
     ///
     /// # Errors
@@ -131,11 +142,11 @@ impl RayTable {
         if size != own {
             return Err(ImageError::Camera { image: size, camera: own });
         }
-        let point = |(depth, [x, y]): (&f32, &[f32; 2])| match *depth > 0.0 {
-            true => Point3::new(x * depth, y * depth, *depth),
+        let point = |(index, depth): (usize, &f32)| match *depth > 0.0 {
+            true => self.point(index, *depth),
             false => Point3::new(f32::NAN, f32::NAN, f32::NAN),
         };
-        let points = image.depth_m.iter().zip(&self.rays).map(point).collect();
+        let points = image.depth_m.iter().enumerate().map(point).collect();
         Cloud::organised(self.width, self.height, points)
     }
 }

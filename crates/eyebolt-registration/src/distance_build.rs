@@ -5,7 +5,7 @@
 //! grid's border, which needs no closed or consistently oriented mesh.
 
 use crate::distance_field::DistanceField;
-use crate::triangle::{area_normal, closest_point, spread_points};
+use crate::triangle::{area_normal, closest_point, corners, spread_points};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
@@ -38,11 +38,6 @@ pub(crate) fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32) -> Distanc
         return builder.signed(&outside);
     }
     builder.signed(&outside)
-}
-
-fn corners(mesh: &TriangleMesh) -> Vec<[Point3<f32>; 3]> {
-    let corner = |i: u32| mesh.vertices[i as usize];
-    mesh.triangles.iter().map(|t| t.map(corner)).collect()
 }
 
 impl<'a> Builder<'a> {

@@ -166,7 +166,7 @@ fn problems<'a>(
 }
 
 /// About `count` of `items`, evenly spread.
-pub(crate) fn thinned<T: Copy>(items: &[T], count: usize) -> Vec<T> {
+fn thinned<T: Copy>(items: &[T], count: usize) -> Vec<T> {
     let count = count.min(items.len());
     (0..count).map(|i| items[(2 * i + 1) * items.len() / (2 * count)]).collect()
 }

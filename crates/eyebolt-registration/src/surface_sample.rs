@@ -1,7 +1,7 @@
 //! Points spread over the outside of a mesh.
 
 use crate::distance_field::DistanceField;
-use crate::triangle::{area_normal, spread_points};
+use crate::triangle::{area_normal, corners, spread_points};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
@@ -26,8 +26,7 @@ pub(crate) fn sample_surface(
     field: &DistanceField,
     count: usize,
 ) -> Vec<SurfacePoint> {
-    let corners: Vec<[Point3<f32>; 3]> =
-        mesh.triangles.iter().map(|t| t.map(|i| mesh.vertices[i as usize])).collect();
+    let corners = corners(mesh);
     let area = |triangle: &[Point3<f32>; 3]| 0.5 * f64::from(area_normal(triangle).norm());
     let shares: Vec<f64> = corners.iter().map(|t| outer_share(field, t)).collect();
     let outer: f64 = corners.iter().zip(&shares).map(|(t, share)| share * area(t)).sum();

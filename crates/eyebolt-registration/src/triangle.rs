@@ -1,5 +1,6 @@
 //! The point of a triangle nearest to a given point.
 
+use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
 /// Nearest point of triangle `[a, b, c]` to `p` (Ericson, *Real-Time Collision Detection*, 5.1.5).
@@ -51,6 +52,12 @@ pub(crate) fn spread_points(
     let n = (longest / spacing).ceil().clamp(1.0, 100.0) as u16;
     let share = move |i: u16| (f32::from(i) + 1.0 / 3.0) / f32::from(n);
     (0..n).flat_map(move |i| (0..n - i).map(move |j| a + ab * share(i) + ac * share(j)))
+}
+
+/// Corners of every triangle of `mesh`.
+pub(crate) fn corners(mesh: &TriangleMesh) -> Vec<[Point3<f32>; 3]> {
+    let corner = |i: u32| mesh.vertices[i as usize];
+    mesh.triangles.iter().map(|t| t.map(corner)).collect()
 }
 
 /// Twice the area times the unit normal.

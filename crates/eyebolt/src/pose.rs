@@ -56,10 +56,7 @@ fn points(session: &Session, configuration: &Configuration, mask: &Mask) -> Vec<
     let set = mask.as_slice().iter().zip(depth).enumerate();
     let all: Vec<usize> = set.filter(|(_, (m, z))| **m && **z > 0.0).map(|(at, _)| at).collect();
     let stride = all.len().div_ceil(SEARCH_POINTS).max(1);
-    let point = |at: &usize| {
-        let [x, y] = session.rays.rays()[*at];
-        Point3::new(x * depth[*at], y * depth[*at], depth[*at])
-    };
+    let point = |at: &usize| session.rays.point(*at, depth[*at]);
     all.iter().step_by(stride).map(point).collect()
 }
 

@@ -87,11 +87,7 @@ impl Scene {
             let on_grid = (at % width) % stride == 0 && (at / width) % stride == 0;
             on_grid && inside.as_slice()[*at] && depth[*at] > 0.0
         });
-        let point = |at: usize| {
-            let [x, y] = RAYS.rays()[at];
-            Point3::new(x * depth[at], y * depth[at], depth[at])
-        };
-        chosen.map(point).collect()
+        chosen.map(|at| RAYS.point(at, depth[at])).collect()
     }
 }
 

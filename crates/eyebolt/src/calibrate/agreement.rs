@@ -4,7 +4,6 @@ use crate::session::Session;
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
 use eyebolt_registration::View;
 use eyebolt_render::Raster;
-use nalgebra::Point3;
 use rayon::prelude::*;
 
 /// Pixels of one configuration, sorted by what they say of a pose.
@@ -138,8 +137,7 @@ fn arm_pixels(
             if !mask.as_slice()[at] || z <= 0.0 {
                 continue;
             }
-            let [x, y] = session.rays.rays()[at];
-            let point = pose * Point3::new(x * z, y * z, z);
+            let point = pose * session.rays.point(at, z);
             let limit = tolerance_m(z);
             match view.posture.nearest_within(&session.arm, &point, limit) {
                 Some(nearest) if nearest.distance_m > -limit => explained += 1,

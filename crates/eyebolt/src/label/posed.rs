@@ -80,12 +80,11 @@ fn surface_distances(
         for u in columns.clone() {
             let at = v * width + u;
             let z = depth[at];
-            let [x, y] = rays.rays()[at];
-            let point = rotation * Point3::new(x * z, y * z, z) + pose.translation.vector;
             if z <= 0.0 {
                 distances.push(f32::NAN);
                 continue;
             }
+            let point = rotation * rays.point(at, z) + pose.translation.vector;
             let nearest = view.posture.nearest_within(arm, &point, CLOSE * near_m(z));
             distances.push(nearest.map_or(f32::INFINITY, |nearest| nearest.distance_m));
         }
@@ -165,8 +164,7 @@ pub fn arm_points(
             let z = view.depth.at(u as u32, v as u32);
             let clear = inside[(v - rows.start) * width + (u - columns.start)] > INTERIOR_PX;
             if z > 0.0 && clear {
-                let [x, y] = rays.rays()[v * image_width + u];
-                points.push(Point3::new(x * z, y * z, z));
+                points.push(rays.point(v * image_width + u, z));
             }
         }
     }

@@ -5,7 +5,7 @@ use eyebolt_geometry::{Base, Camera, Mask, Transform};
 use eyebolt_recording::Folder;
 use eyebolt_registration::median;
 use eyebolt_render::Raster;
-use nalgebra::{Matrix4, Point3};
+use nalgebra::Matrix4;
 
 /// `HT_left_dr` of the recording's notes, found by stereo differentiable rendering (roboreg).
 pub fn reference() -> Transform<Camera, Base> {
@@ -56,8 +56,7 @@ pub fn surface_distance(outcome: &Outcome, masks: &[Mask], pose: &Transform<Came
         let depth = configuration.depth.depth_m();
         let pixels = eroded.as_slice().iter().enumerate().filter(|(_, set)| **set);
         for (at, _) in pixels.filter(|(at, _)| depth[*at] > 0.0 && depth[*at] < 2.0) {
-            let [x, y] = session.rays.rays()[at];
-            let point = Point3::new(x * depth[at], y * depth[at], depth[at]);
+            let point = session.rays.point(at, depth[at]);
             let point = base_from_camera.point(&point.cast()).cast();
             let nearest = configuration.posture.nearest(&session.arm, &point).unwrap();
             distances.push(1e3 * f64::from(nearest.distance_m).abs());
