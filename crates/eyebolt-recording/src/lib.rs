@@ -25,6 +25,7 @@
 //! and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors
 //! that name the file, the field and what to do.
 
+mod bag;
 mod camera_info;
 mod cloud;
 mod color;

@@ -1,0 +1,84 @@
+//! Bags: files of messages with time stamps, whatever wrote them.
+
+use crate::error::RecordingError;
+
+/// A stream of messages of one type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Topic {
+    /// As in `/camera/depth/image_raw`.
+    pub(crate) name: String,
+    /// Type of its messages without ROS 2's `msg`, as in `sensor_msgs/Image`.
+    pub(crate) message_type: String,
+    /// How its messages are written.
+    pub(crate) encoding: Encoding,
+}
+
+/// How messages are written as bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    /// ROS 2: OMG's Common Data Representation behind four bytes that tell its byte order.
+    Cdr,
+    /// ROS 1.
+    Ros1,
+    /// By another rule, of this name.
+    Other(String),
+}
+
+/// One message, as a scan comes by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Message<'a> {
+    /// What it belongs to.
+    pub(crate) topic: &'a Topic,
+    /// Number of the topic in its file, from 0 without gaps; the same for every message of the topic.
+    pub(crate) topic_index: usize,
+    /// When it was written down, nanoseconds.
+    pub(crate) log_time_ns: i64,
+    /// Where to find it again.
+    pub(crate) place: Place,
+    /// Its bytes, decompressed.
+    pub(crate) data: &'a [u8],
+}
+
+/// Where a message lies in its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// At a byte of the file, not in a chunk.
+    Bytes {
+        /// The first byte of the message's data, from the beginning of the file.
+        start: u64,
+        /// How many.
+        length: u32,
+    },
+    /// In a chunk, compressed or not.
+    InChunk {
+        /// Offset in the file of the record that is the chunk.
+        chunk: u64,
+        /// The first byte of the message's data in the decompressed chunk.
+        start: u32,
+        /// How many.
+        length: u32,
+    },
+    /// In a row of a table.
+    Row(i64),
+}
+
+/// A file of messages.
+///
+/// Reading is by streaming: memory holds one chunk (or message) at a time, however long the file.
+pub(crate) trait BagFile: std::fmt::Debug + Send + Sync {
+    /// Hands every message to `each`, in the order of the file; an error of `each` ends the scan.
+    ///
+    /// `damage` is asked what to do about a part that cannot be read: the error that it returns
+    /// ends the scan; `Ok` goes on behind that part (at the end of the file, the scan is over).
+    fn scan(
+        &self,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError>;
+
+    /// The bytes of the message at `place`, which a scan of this file told.
+    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError>;
+}
+
+/// No message, and no chunk of messages, is larger than this when decompressed, bytes.
+pub(crate) const LARGEST_CHUNK: u64 = 512 << 20;
