@@ -1,6 +1,7 @@
 //! `eyebolt calibrate`.
 
 use crate::Ending;
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive};
 use crate::output::{self, Destination};
 use crate::progress::Bar;
 use crate::summary;
@@ -9,38 +10,29 @@ use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::progress::{Progress, Step};
+use eyebolt::record::RecordOptions;
 use eyebolt::report::overlay;
 use eyebolt::session::ImageSource;
-use eyebolt_recording::Folder;
-use eyebolt_registration::LinkCache;
+use eyebolt_recording::Recording;
 use eyebolt_render::Raster;
-use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Folder with a recording.toml, or that file itself
-    recording: PathBuf,
+    #[command(flatten)]
+    recording: RecordingArguments,
     /// Where to write the calibration; a refused one goes to *.rejected.json beside it
     #[arg(short, long, default_value = "calibration.json")]
     output: PathBuf,
-    /// Robot description (URDF); otherwise the one that recording.toml names
-    #[arg(long, value_name = "URDF")]
-    robot: Option<PathBuf>,
-    /// Base link; otherwise recording.toml's, or guessed
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// End-effector link; otherwise recording.toml's, or guessed
-    #[arg(long, value_name = "LINK")]
-    end_effector: Option<String>,
-    /// Where package:// leads: a folder of packages, or NAME=FOLDER; may be repeated.
-    /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too
-    #[arg(long, value_name = "[NAME=]FOLDER")]
-    package_path: Vec<String>,
+    #[command(flatten)]
+    robot: RobotArguments,
     /// Find the arm's pixels by what moved, even if the recording has masks
     #[arg(long)]
     no_masks: bool,
+    /// Of more configurations, use those that differ most; time grows with the square
+    #[arg(long, value_name = "COUNT", default_value_t = 30, value_parser = clap::value_parser!(u16).range(3..))]
+    max_configurations: u16,
     /// Draw the posed arm over each frame, as PNG files in this folder
     #[arg(long, value_name = "FOLDER")]
     save_overlay: Option<PathBuf>,
@@ -62,19 +54,8 @@ pub struct Arguments {
     /// Add the milliseconds of each stage to the calibration
     #[arg(long)]
     timing: bool,
-    /// Where the shapes of links are kept between runs [default: eyebolt in the user's cache folder]
-    #[arg(long, value_name = "FOLDER", conflicts_with = "no_cache")]
-    cache: Option<PathBuf>,
-    /// Keep nothing between runs
-    #[arg(long)]
-    no_cache: bool,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("must be a number above 0".to_owned()),
-    }
+    #[command(flatten)]
+    cache: CacheArguments,
 }
 
 /// Runs the command.
@@ -85,17 +66,20 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     let destination = Destination::new(&arguments.output, arguments.force)?;
     let bar = Bar::new();
-    let recording = Folder::open(&arguments.recording)?;
+    let recording = arguments.recording.open()?;
     if let Some(folder) = &arguments.save_overlay {
         check_overlays(folder, &recording, arguments.force)?;
     }
-    let arm = arm(arguments, &recording)?;
-    let cache = cache(arguments);
+    let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
+    let cache = arguments.cache.open();
     let request = Request {
         recording: &recording,
         arm: &arm,
         cache: &cache,
-        use_masks: !arguments.no_masks,
+        options: RecordOptions {
+            use_masks: !arguments.no_masks,
+            most_configurations: usize::from(arguments.max_configurations),
+        },
         limits: limits(arguments),
         seed: arguments.seed,
     };
@@ -129,47 +113,8 @@ fn limits(arguments: &Arguments) -> Limits {
     Limits { expected, ..default }
 }
 
-/// The arm that the flags name, else the one that the recording names.
-fn arm(arguments: &Arguments, recording: &Folder) -> Result<Arm> {
-    let section = recording.robot();
-    let Some(urdf) = arguments.robot.as_ref().or(section.urdf.as_ref()) else {
-        let given = &arguments.recording;
-        let file = if given.is_dir() { given.join("recording.toml") } else { given.clone() };
-        bail!(
-            "{}: robot.urdf: no robot description is named. Add [robot] urdf = \"...\" or give \
-             --robot arm.urdf",
-            file.display()
-        );
-    };
-    let variable = |name| std::env::var(name).ok();
-    let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
-    let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
-    let flags = arguments.package_path.iter();
-    let packages = flags.fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag));
-    let robot = Robot::from_urdf_file(urdf, &packages.then(environment))?;
-    // The recording's links are those of the robot it names, not of another given instead.
-    let other = arguments.robot.is_some();
-    let known = |link: &&String| !other || robot.link_index(link).is_some();
-    let base = arguments.base.as_ref().or(section.base.as_ref().filter(known));
-    let hand = arguments.end_effector.as_ref().or(section.end_effector.as_ref().filter(known));
-    Ok(robot.arm(base.map(String::as_str), hand.map(String::as_str))?)
-}
-
-fn cache(arguments: &Arguments) -> LinkCache {
-    if arguments.no_cache {
-        return LinkCache::disabled();
-    }
-    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
-    let user = || {
-        let own = variable("XDG_CACHE_HOME").map(PathBuf::from);
-        let home = || variable("HOME").map(|home| Path::new(&home).join(".cache"));
-        own.or_else(home).map(|folder| folder.join("eyebolt"))
-    };
-    arguments.cache.clone().or_else(user).map_or(LinkCache::disabled(), LinkCache::new)
-}
-
 /// Better told now than after the work: pictures that are in the way, or a folder that is none.
-fn check_overlays(folder: &Path, recording: &Folder, force: bool) -> Result<()> {
+fn check_overlays(folder: &Path, recording: &Recording, force: bool) -> Result<()> {
     if folder.exists() && !folder.is_dir() {
         bail!("{}: --save-overlay: not a folder. Name one", folder.display());
     }
@@ -184,7 +129,7 @@ fn overlay_path(folder: &Path, frame: &str) -> PathBuf {
 /// Draws every configuration; the paths of the pictures.
 fn save_overlays(
     folder: &Path,
-    recording: &Folder,
+    recording: &Recording,
     outcome: &Outcome,
     force: bool,
 ) -> Result<Vec<PathBuf>> {

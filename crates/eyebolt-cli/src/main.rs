@@ -1,6 +1,7 @@
 //! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
 
 mod calibrate;
+mod inputs;
 mod output;
 mod progress;
 mod summary;

@@ -1,5 +1,15 @@
 //! Bags: files of messages with time stamps, whatever wrote them.
 
+mod cache;
+mod mcap;
+mod open;
+mod ros1;
+mod sqlite;
+mod zstd;
+
+pub(crate) use open::{Bag, Locator, looks_like_bag};
+pub use open::BagKind;
+
 use crate::error::RecordingError;
 
 /// A stream of messages of one type.
@@ -82,3 +92,8 @@ pub(crate) trait BagFile: std::fmt::Debug + Send + Sync {
 
 /// No message, and no chunk of messages, is larger than this when decompressed, bytes.
 pub(crate) const LARGEST_CHUNK: u64 = 512 << 20;
+
+/// The type's name without ROS 2's `msg`.
+pub(crate) fn ros_type(name: &str) -> String {
+    name.replacen("/msg/", "/", 1)
+}

@@ -6,6 +6,7 @@
 
 use crate::error::RecordingError;
 use crate::file::read_text;
+use crate::message::CameraInfoMessage;
 use eyebolt_geometry::{Distortion, PinholeCamera};
 use serde::Deserialize;
 use std::path::Path;
@@ -76,6 +77,36 @@ impl CameraInfo {
         let camera = camera(path, &raw)?;
         let in_header = raw.header.and_then(|h| h.frame_id);
         let frame_id = in_header.or(raw.frame_id).filter(|id| !id.is_empty());
+        Ok(Self { camera, frame_id })
+    }
+}
+
+impl CameraInfo {
+    /// From a message; `rectified` pictures have the intrinsics of `p` and no distortion left.
+    ///
+    /// `path` is for messages.
+    pub(crate) fn from_message(
+        path: &Path,
+        message: &CameraInfoMessage<'_>,
+        rectified: bool,
+    ) -> Result<Self, RecordingError> {
+        let mut raw = Raw {
+            width: Some(message.width),
+            height: Some(message.height),
+            k: Some(message.k.to_vec()),
+            d: Some(message.d.clone()),
+            distortion_model: Some(message.distortion_model.to_owned()),
+            ..Raw::default()
+        };
+        let [fx, skew, cx, _, k10, fy, cy, _, k20, k21, k22, _] = message.p;
+        // Drivers that do not rectify leave `p` empty.
+        if rectified && fx != 0.0 && fy != 0.0 {
+            raw.k = Some(vec![fx, skew, cx, k10, fy, cy, k20, k21, k22]);
+            raw.d = None;
+            raw.distortion_model = None;
+        }
+        let camera = camera(path, &raw)?;
+        let frame_id = Some(message.header.frame_id.to_owned()).filter(|id| !id.is_empty());
         Ok(Self { camera, frame_id })
     }
 }

@@ -49,7 +49,7 @@ fn grid(path: &Path, shape: &[usize]) -> Result<Option<(u32, u32)>, RecordingErr
 }
 
 /// The point in the optical frame; NaN where there is none.
-fn optical([x, y, z]: [f32; 3], frame: CloudFrame) -> Point3<f32> {
+pub(crate) fn optical([x, y, z]: [f32; 3], frame: CloudFrame) -> Point3<f32> {
     let there = x.is_finite() && y.is_finite() && z.is_finite() && [x, y, z] != [0.0; 3];
     match frame {
         _ if !there => Point3::new(f32::NAN, f32::NAN, f32::NAN),

@@ -58,6 +58,25 @@ impl RecordingError {
         }
     }
 
+    /// The bag at `path` cannot be read.
+    pub(crate) fn unreadable_bag(path: &Path, cause: io::Error) -> Self {
+        Self::Read {
+            path: path.to_path_buf(),
+            field: "the bag".to_owned(),
+            remedy: "Check that the file exists and may be read".to_owned(),
+            cause,
+        }
+    }
+
+    /// What is wrong, without the file, the field and the remedy.
+    pub(crate) fn problem(&self) -> String {
+        match self {
+            Self::Invalid { problem, .. } => problem.clone(),
+            Self::Read { cause, .. } => cause.to_string(),
+            Self::NoSuchFrame { .. } => self.to_string(),
+        }
+    }
+
     /// The file or folder that the error is about.
     pub fn path(&self) -> &Path {
         match self {

@@ -10,7 +10,7 @@ use eyebolt_geometry::PinholeCamera;
 use std::path::{Path, PathBuf};
 
 /// Name of the file that describes a folder.
-const MANIFEST: &str = "recording.toml";
+pub(crate) const MANIFEST: &str = "recording.toml";
 
 /// A recording in a folder. Frames are read when asked for, from as many threads as wanted.
 #[derive(Clone, Debug)]

@@ -26,6 +26,7 @@
 //! that name the file, the field and what to do.
 
 mod bag;
+mod bag_recording;
 mod camera_info;
 mod cloud;
 mod color;
@@ -37,14 +38,25 @@ mod frame;
 mod joints;
 mod manifest;
 mod mask;
+mod message;
 mod npy;
 mod pattern;
 mod png_image;
+mod recording;
 mod unit_check;
 
+/// Name of the metadata record with what eyebolt knows of a recording that it wrote.
+pub(crate) const METADATA_NAME: &str = "eyebolt";
+
+pub use bag::BagKind;
+pub use bag_recording::{
+    BagOptions, BagRecording, ClockOffset, DropReason, DroppedFrame, TopicSummary,
+};
 pub use camera_info::CameraInfo;
 pub use color::ColorImage;
 pub use error::RecordingError;
 pub use folder::Folder;
 pub use frame::{Frame, Range};
-pub use manifest::RobotSection;
+pub use manifest::{CloudFrame, RobotSection};
+pub use message::StaticTransform;
+pub use recording::Recording;

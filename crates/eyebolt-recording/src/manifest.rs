@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 pub struct RobotSection {
     /// Path of the robot description, relative to the working folder or absolute. May not exist.
     pub urdf: Option<PathBuf>,
+    /// The robot description itself (URDF text), where the recording holds it.
+    pub description: Option<String>,
     /// Name of the arm's root link.
     pub base: Option<String>,
     /// Name of the end-effector link.
@@ -41,7 +43,7 @@ impl Unit {
 
 /// Frame that the points of a cloud are stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CloudFrame {
+pub enum CloudFrame {
     /// x right, y down, z forward.
     Optical,
     /// x forward, y left, z up.
@@ -108,6 +110,7 @@ impl Manifest {
             joint_names: source.joint_names(frames)?,
             robot: RobotSection {
                 urdf: raw.robot.urdf.map(|urdf| root.join(urdf)),
+                description: None,
                 base: raw.robot.base,
                 end_effector: raw.robot.end_effector,
             },

@@ -97,7 +97,7 @@ impl Pattern {
 }
 
 /// Compares runs of digits as numbers and the rest as text; equal only if the texts are.
-fn natural_order(a: &str, b: &str) -> Ordering {
+pub(crate) fn natural_order(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a, b);
     while !left.is_empty() && !right.is_empty() {
         let (l, left_rest) = first_run(left);

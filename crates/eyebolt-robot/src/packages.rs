@@ -124,17 +124,27 @@ impl PackageRoots {
                 existing(url, vec![path], "correct the path in the URDF")
             }
             Some(_) => Err(unsupported("only package://, model:// and file:// are read")),
+            None if directory.is_none() && Path::new(url).is_relative() => {
+                self.resolve_homeless(url)
+            }
             None => {
-                let place = match directory {
-                    Some(directory) => directory.join(url),
-                    None if Path::new(url).is_absolute() => PathBuf::from(url),
-                    None => {
-                        return Err(unsupported("relative, but the URDF came without a folder"));
-                    }
-                };
+                let place = directory.unwrap_or(Path::new("")).join(url);
                 existing(url, vec![place], "put the file there or correct the path in the URDF")
             }
         }
+    }
+
+    /// A relative path in a description that came without a folder, as from a topic: it is looked
+    /// up in the folders given.
+    fn resolve_homeless(&self, url: &str) -> Result<PathBuf, ResolveError> {
+        if !stays_inside(url) {
+            return Err(ResolveError::Escapes { url: url.to_owned() });
+        }
+        let named = self.named.iter().map(|(_, directory)| directory);
+        let places = named.chain(&self.search).map(|root| root.join(url)).collect();
+        let remedy = "the description came without a folder: give the one that this path starts \
+                      in with --package-path FOLDER, or the URDF as a file with --robot FILE";
+        existing(url, places, remedy)
     }
 
     fn resolve_package(

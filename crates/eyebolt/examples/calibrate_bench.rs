@@ -10,7 +10,8 @@
 use eyebolt::calibrate::Limits;
 use eyebolt::pipeline::{Request, run};
 use eyebolt::progress::{Progress, Step};
-use eyebolt_recording::Folder;
+use eyebolt::record::RecordOptions;
+use eyebolt_recording::{BagOptions, Recording};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{PackageRoots, Robot};
 use std::cell::RefCell;
@@ -74,13 +75,14 @@ fn time_one(
     use_masks: bool,
 ) -> Result<Vec<(&'static str, f64)>, Failure> {
     let start = Instant::now();
-    let folder = Folder::open(recording)?;
-    let section = folder.robot();
+    let recording = Recording::open(recording, &BagOptions::default())?;
+    let section = recording.robot();
     let urdf: &PathBuf = section.urdf.as_ref().ok_or("recording.toml names no urdf")?;
     let robot = Robot::from_urdf_file(urdf, &PackageRoots::new())?;
     let arm = robot.arm(section.base.as_deref(), section.end_effector.as_deref())?;
+    let options = RecordOptions { use_masks, ..RecordOptions::default() };
     let limits = Limits::default();
-    let request = Request { recording: &folder, arm: &arm, cache, use_masks, limits, seed: 1 };
+    let request = Request { recording: &recording, arm: &arm, cache, options, limits, seed: 1 };
     let clock = Clock::default();
     let opened = Instant::now();
     run(&request, &clock)?;

@@ -2,9 +2,9 @@
 
 use crate::calibrate::{Calibration, Limits, Reason, Verdict, calibrate};
 use crate::progress::{Progress, Step};
-use crate::record::{self, RecordError};
+use crate::record::{self, RecordError, RecordOptions};
 use crate::session::Session;
-use eyebolt_recording::Folder;
+use eyebolt_recording::Recording;
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, KinematicsError};
 
@@ -12,13 +12,13 @@ use eyebolt_robot::{Arm, KinematicsError};
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
     /// The recording.
-    pub recording: &'a Folder,
+    pub recording: &'a Recording,
     /// The arm in it.
     pub arm: &'a Arm,
     /// Where shapes of links are kept between runs.
     pub cache: &'a LinkCache,
-    /// Whether to use the masks of the recording.
-    pub use_masks: bool,
+    /// What to read of the recording.
+    pub options: RecordOptions,
     /// What an answer has to meet to be trusted.
     pub limits: Limits,
     /// Seed of the search.
@@ -42,8 +42,8 @@ pub struct Outcome {
 /// What [`record::open`] reports; but a recording with none of the robot's joints is refused.
 pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, RecordError> {
     progress.begin(Step::Record);
-    let Request { recording, arm, cache, use_masks, limits, seed } = request;
-    match record::open(recording, arm, cache, *use_masks) {
+    let Request { recording, arm, cache, options, limits, seed } = request;
+    match record::open(recording, arm, cache, options) {
         Ok(session) => {
             let calibration = calibrate(&session, limits, *seed, progress);
             Ok(Outcome { calibration, session: Some(session) })

@@ -2,14 +2,15 @@
 
 mod eye;
 mod group;
+mod spread;
 
 use crate::session::{Configuration, Session};
-use eyebolt_geometry::{Base, DepthImage, EndEffector, PinholeCamera, RayTable, Transform};
-use eyebolt_recording::{Folder, Frame, RecordingError};
+use eyebolt_geometry::{Base, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform};
+use eyebolt_recording::{Recording, RecordingError};
 use eyebolt_registration::{ArmLink, ArmModel, LinkCache, Posture};
 use eyebolt_robot::{
-    Arm, KinematicsError, Link, LinkPoses, MeshError, Prefer, TriangleMesh, link_fingerprint,
-    link_mesh,
+    Arm, JointPositions, KinematicsError, Link, LinkPoses, MeshError, Prefer, TriangleMesh,
+    link_fingerprint, link_mesh,
 };
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -78,7 +79,10 @@ pub enum RecordError {
         base: String,
     },
     /// Clouds without a camera that do not tell their own.
-    #[error("frame {frame}: {problem}; add [camera] info = \"...\" to recording.toml")]
+    #[error(
+        "frame {frame}: {problem}; add [camera] info = \"...\" to recording.toml, or give \
+         --camera-info with a bag"
+    )]
     Projection {
         /// Name of the frame.
         frame: String,
@@ -87,47 +91,54 @@ pub enum RecordError {
     },
 }
 
-/// Reads all frames of `folder`, poses `arm` in each, and gets the shapes of its links from
-/// `cache` or their meshes.
+/// Poses `arm` in every frame of `recording`, gets the shapes of its links from `cache` or their
+/// meshes, and reads the frames of each configuration.
+///
+/// Depth is read of no more frames than tell something new, one configuration after the other, so
+/// that memory does not grow with the length of the recording.
 ///
 /// # Errors
 ///
 /// The first thing that cannot be read or does not fit, in the order of the frames.
 pub fn open(
-    folder: &Folder,
+    recording: &Recording,
     arm: &Arm,
     cache: &LinkCache,
-    use_masks: bool,
+    options: &RecordOptions,
 ) -> Result<Session, RecordError> {
-    let frames = read_frames(folder, use_masks)?;
-    let placed = frames.iter().map(|frame| place(arm, frame)).collect::<Result<Vec<_>, _>>()?;
+    let groups = group_frames(recording, arm)?;
     // A link that some frame does not place takes no part in any.
-    let links = (0..arm.robot().links.len()).filter(|link| {
-        arm.is_below_base(*link) && placed.iter().all(|p| p.base_from_links[*link].is_some())
-    });
-    let (links, model) = shapes(arm, links.collect(), cache)?;
-    let eye = eye::find(folder, &frames)?;
-    check_masks(&frames, &eye.camera)?;
-    let rays = RayTable::new(&eye.camera);
-    let link_poses = |p: &Placement| links.iter().filter_map(|l| p.base_from_links[*l]).collect();
-    let poses: Vec<Vec<_>> = placed.iter().map(link_poses).collect();
-    let configurations = group::group(&poses)
-        .into_iter()
-        .map(|members| {
-            let first = members[0];
-            let members: Vec<&Frame> = members.iter().map(|index| &frames[*index]).collect();
-            let masks: Vec<_> = members.iter().map(|frame| frame.mask.clone()).collect();
-            Configuration {
-                frames: members.iter().map(|frame| frame.name.clone()).collect(),
-                depth: depth(&members, &eye, &rays),
-                mask: group::common_mask(&masks),
-                base_from_end_effector: placed[first].base_from_end_effector,
-                posture: Posture::new(&model, poses[first].clone()),
-            }
-        })
+    let placed = |link: &usize| groups.iter().all(|g| g.first.base_from_links[*link].is_some());
+    let links = (0..arm.robot().links.len()).filter(|link| arm.is_below_base(*link));
+    let (links, model) = shapes(arm, links.filter(placed).collect(), cache)?;
+    let postures: Vec<Vec<_>> = groups
+        .iter()
+        .map(|group| links.iter().filter_map(|l| group.first.base_from_links[*l]).collect())
         .collect();
+    let chosen = spread::most_spread(&postures, options.most_configurations);
+    let first = chosen.iter().filter_map(|group| groups[*group].frames.first()).min();
+    let eye = eye::find(recording, &recording.read_frame(first.copied().unwrap_or_default())?)?;
+    let reader = Reader { recording, eye: &eye, rays: RayTable::new(&eye.camera), options };
+    let configurations = chosen.par_iter().map(|group| {
+        let read = reader.configuration(&groups[*group].frames)?;
+        Ok(Configuration {
+            frames: groups[*group]
+                .frames
+                .iter()
+                .map(|f| recording.frame_names()[*f].clone())
+                .collect(),
+            depth: read.depth,
+            mask: read.mask,
+            base_from_end_effector: groups[*group].first.base_from_end_effector,
+            posture: Posture::new(&model, postures[*group].clone()),
+        })
+    });
+    // Collected first: of several errors the first is reported, whichever thread met it.
+    let configurations: Vec<Result<_, RecordError>> = configurations.collect();
+    let configurations = configurations.into_iter().collect::<Result<_, _>>()?;
+    let rays = reader.rays;
     let eye::Eye { camera, optical_from_camera, source } = eye;
-    let assumed_joints = placed.first().map(|p| p.assumed_joints.clone()).unwrap_or_default();
+    let assumed_joints = groups.first().map(|g| g.first.assumed_joints.clone()).unwrap_or_default();
     Ok(Session {
         camera,
         rays,
@@ -136,17 +147,99 @@ pub fn open(
         arm: model,
         configurations,
         assumed_joints,
+        spare_configurations: groups.len() - chosen.len(),
     })
 }
 
-/// Median of what frames of one configuration saw, along rays that the lens has.
-fn depth(frames: &[&Frame], eye: &eye::Eye, rays: &RayTable) -> DepthImage {
-    let images: Vec<_> = frames.iter().map(|frame| eye.depth_image(&frame.range)).collect();
-    let image = group::median_depth(&images).expect("a configuration has a frame");
-    let (width, height) = (image.width(), image.height());
-    let known = |(z, [x, y]): (&f32, &[f32; 2])| if (x + y).is_nan() { 0.0 } else { *z };
-    let depth_m = image.depth_m().iter().zip(rays.rays()).map(known).collect();
-    DepthImage::new(width, height, depth_m).expect("as many pixels as before")
+/// What to read of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordOptions {
+    /// Whether to use the masks of the recording.
+    pub use_masks: bool,
+    /// Of more configurations, those are used that differ most: time grows with the square of
+    /// their number, and accuracy hardly grows any more.
+    pub most_configurations: usize,
+}
+
+impl Default for RecordOptions {
+    fn default() -> Self {
+        Self { use_masks: true, most_configurations: 30 }
+    }
+}
+
+/// Frames with the arm in one place.
+struct Group {
+    /// Indices, rising.
+    frames: Vec<usize>,
+    /// Where the joints of the first frame put the links.
+    first: Placement,
+}
+
+/// Frames of each configuration, in order of appearance.
+fn group_frames(recording: &Recording, arm: &Arm) -> Result<Vec<Group>, RecordError> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, name) in recording.frame_names().iter().enumerate() {
+        let placement = place(arm, name, &recording.read_joints(index)?)?;
+        let same = |group: &&mut Group| {
+            group::same_place(&group.first.base_from_links, &placement.base_from_links)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.frames.push(index),
+            None => groups.push(Group { frames: vec![index], first: placement }),
+        }
+    }
+    Ok(groups)
+}
+
+/// Pixels of the images that one configuration is made from: enough frames for a median, few
+/// enough for memory.
+const MOST_PIXELS: usize = 12_000_000;
+const FEWEST_FRAMES: usize = 5;
+const MOST_FRAMES: usize = 30;
+
+/// Reads the frames of configurations.
+struct Reader<'a> {
+    recording: &'a Recording,
+    eye: &'a eye::Eye,
+    rays: RayTable,
+    options: &'a RecordOptions,
+}
+
+/// What the frames of a configuration saw.
+struct Seen {
+    depth: DepthImage,
+    mask: Option<Mask>,
+}
+
+impl Reader<'_> {
+    fn configuration(&self, frames: &[usize]) -> Result<Seen, RecordError> {
+        let camera = &self.eye.camera;
+        let most = (MOST_PIXELS / camera.pixel_count().max(1)).clamp(FEWEST_FRAMES, MOST_FRAMES);
+        let (mut images, mut masks) = (Vec::new(), Vec::new());
+        for index in evenly(frames, most) {
+            let frame = self.recording.read_frame(index)?;
+            let mask = frame.mask.filter(|_| self.options.use_masks);
+            check_mask(&frame.name, mask.as_ref(), camera)?;
+            images.push(self.eye.depth_image(&frame.range));
+            masks.push(mask);
+        }
+        let image = group::median_depth(&images).expect("a configuration has a frame");
+        Ok(Seen { depth: self.along_rays(image), mask: group::common_mask(&masks) })
+    }
+
+    /// `image` where the lens has rays.
+    fn along_rays(&self, image: DepthImage) -> DepthImage {
+        let (width, height) = (image.width(), image.height());
+        let known = |(z, [x, y]): (f32, &[f32; 2])| if (x + y).is_nan() { 0.0 } else { z };
+        let depth_m = image.into_depth_m().into_iter().zip(self.rays.rays()).map(known).collect();
+        DepthImage::new(width, height, depth_m).expect("as many pixels as before")
+    }
+}
+
+/// At most `most` of `indices`, from the first to the last.
+fn evenly(indices: &[usize], most: usize) -> impl Iterator<Item = usize> {
+    let count = indices.len().min(most);
+    (0..count).map(move |i| indices[i * (indices.len() - 1) / (count - 1).max(1)])
 }
 
 /// Where the joints of one frame put the links.
@@ -156,39 +249,25 @@ struct Placement {
     assumed_joints: Vec<String>,
 }
 
-fn place(arm: &Arm, frame: &Frame) -> Result<Placement, RecordError> {
-    let failed = |source| RecordError::Kinematics { frame: frame.name.clone(), source };
-    let poses = arm.link_poses_with_defaults(&frame.joints).map_err(failed)?;
+fn place(arm: &Arm, frame: &str, joints: &JointPositions) -> Result<Placement, RecordError> {
+    let failed = |source| RecordError::Kinematics { frame: frame.to_owned(), source };
+    let poses = arm.link_poses_with_defaults(joints).map_err(failed)?;
     Ok(Placement {
         base_from_links: poses.base_from_links,
-        base_from_end_effector: arm.base_from_end_effector(&frame.joints).map_err(failed)?,
+        base_from_end_effector: arm.base_from_end_effector(joints).map_err(failed)?,
         assumed_joints: poses.defaulted_joints,
     })
 }
 
-/// Masks belong to the pixels of the camera's images, also where clouds of another size are drawn
+/// A mask belongs to the pixels of the camera's images, also where clouds of another size are drawn
 /// as images.
-fn check_masks(frames: &[Frame], camera: &PinholeCamera) -> Result<(), RecordError> {
+fn check_mask(frame: &str, mask: Option<&Mask>, camera: &PinholeCamera) -> Result<(), RecordError> {
     let size = (camera.width(), camera.height());
-    for frame in frames {
-        let mask = frame.mask.as_ref().map(|mask| (mask.width(), mask.height()));
-        if let Some(found) = mask.filter(|mask| *mask != size) {
-            return Err(RecordError::MaskSize { frame: frame.name.clone(), found, size });
-        }
+    let found = mask.map(|mask| (mask.width(), mask.height()));
+    match found.filter(|mask| *mask != size) {
+        Some(found) => Err(RecordError::MaskSize { frame: frame.to_owned(), found, size }),
+        None => Ok(()),
     }
-    Ok(())
-}
-
-fn read_frames(folder: &Folder, use_masks: bool) -> Result<Vec<Frame>, RecordingError> {
-    let count = folder.frame_names().len();
-    let read = |index: usize| {
-        let mut frame = folder.read_frame(index)?;
-        frame.mask = frame.mask.filter(|_| use_masks);
-        Ok(frame)
-    };
-    // Collected first: of several errors the first is reported, whichever thread met it.
-    let frames: Vec<_> = (0..count).into_par_iter().map(read).collect();
-    frames.into_iter().collect()
 }
 
 /// Shapes of those of `links` that have one, and which these are.

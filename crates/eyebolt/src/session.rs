@@ -23,6 +23,8 @@ pub struct Session {
     pub configurations: Vec<Configuration>,
     /// Joints of the hand that the recording does not have, and that were put at their lower limit.
     pub assumed_joints: Vec<String>,
+    /// How many more configurations the recording has, much like those that are used.
+    pub spare_configurations: usize,
 }
 
 /// Where the depth images of a session come from.

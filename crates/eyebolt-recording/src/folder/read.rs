@@ -24,8 +24,18 @@ impl Folder {
         let name = self.name(index)?;
         let range = self.range(name)?;
         let mask = self.mask(name, &range)?;
-        let joints = read_joints(&self.manifest.joints.path(name), &self.manifest.joint_names)?;
+        let joints = self.read_joints(index)?;
         Ok(Frame { name: name.to_owned(), range, mask, joints })
+    }
+
+    /// Positions of the joints at frame `index`.
+    ///
+    /// # Errors
+    ///
+    /// No such frame, or positions that cannot be read.
+    pub fn read_joints(&self, index: usize) -> Result<eyebolt_robot::JointPositions, RecordingError> {
+        let name = self.name(index)?;
+        read_joints(&self.manifest.joints.path(name), &self.manifest.joint_names)
     }
 
     /// Reads the colour picture of frame `index`; `None` if the recording has no pictures.

@@ -5,7 +5,7 @@ use crate::session::ImageSource;
 use eyebolt_geometry::{
     Camera, Cloud, DepthImage, Distortion, PinholeCamera, Transform, fit_projection,
 };
-use eyebolt_recording::{Folder, Frame, Range};
+use eyebolt_recording::{Frame, Range, Recording};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A camera, and how its frame is turned against the optical frame that answers are for.
@@ -16,16 +16,16 @@ pub(crate) struct Eye {
 }
 
 /// The camera of the recording; else the one that the grid of its clouds tells; else one that looks
-/// at the middle of the first cloud.
+/// at the middle of the cloud of `frame`.
 ///
 /// # Errors
 ///
 /// No camera can be told, or one of more pixels than any has.
-pub(crate) fn find(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError> {
-    let eye = any_size(folder, frames)?;
+pub(crate) fn find(recording: &Recording, frame: &Frame) -> Result<Eye, RecordError> {
+    let eye = any_size(recording, frame)?;
     let pixels = eye.camera.pixel_count();
     if pixels > MOST_PIXELS {
-        let frame = frames.first().map(|frame| frame.name.clone()).unwrap_or_default();
+        let frame = frame.name.clone();
         let problem = format!("the camera has {pixels} pixels, more than {MOST_PIXELS}");
         return Err(RecordError::Projection { frame, problem });
     }
@@ -35,23 +35,19 @@ pub(crate) fn find(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError
 /// Images of more pixels would fill the memory.
 const MOST_PIXELS: usize = 100_000_000;
 
-fn any_size(folder: &Folder, frames: &[Frame]) -> Result<Eye, RecordError> {
-    let cloud = frames.iter().find_map(|frame| match &frame.range {
-        Range::Cloud(cloud) => Some((frame, cloud)),
+fn any_size(recording: &Recording, frame: &Frame) -> Result<Eye, RecordError> {
+    let cloud = match &frame.range {
+        Range::Cloud(cloud) => Some(cloud),
         Range::Depth(_) => None,
-    });
-    if let Some(camera) = folder.camera() {
+    };
+    if let Some(camera) = recording.camera() {
         let source =
             if cloud.is_some() { ImageSource::ProjectedClouds } else { ImageSource::DepthImages };
         let optical_from_camera = Transform::identity();
         return Ok(Eye { camera: camera.clone(), optical_from_camera, source });
     }
-    let Some((frame, cloud)) = cloud else {
-        let frame = frames.first().map(|frame| frame.name.clone()).unwrap_or_default();
-        let problem = "depth images need a camera".to_owned();
-        return Err(RecordError::Projection { frame, problem });
-    };
     let failed = |problem: String| RecordError::Projection { frame: frame.name.clone(), problem };
+    let Some(cloud) = cloud else { return Err(failed("depth images need a camera".to_owned())) };
     match fit_projection(cloud) {
         Ok(fit) => Ok(Eye {
             camera: fit.camera,

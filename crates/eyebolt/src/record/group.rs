@@ -1,6 +1,7 @@
 //! Frames of one arm configuration, merged.
 
-use eyebolt_geometry::{Base, DepthImage, Link, Mask, Transform};
+use eyebolt_geometry::{DepthImage, Mask};
+use eyebolt_robot::LinkPoses;
 use rayon::prelude::*;
 
 /// Frames whose links are this near to each other show the same configuration: more than encoders
@@ -8,27 +9,17 @@ use rayon::prelude::*;
 const SAME_M: f64 = 5e-3;
 const SAME_RAD: f64 = 1e-2;
 
-/// Indices of the frames of each configuration, in order of appearance; `poses` has the poses of
-/// the arm's links in each frame.
+/// Whether two frames have the arm in the same place; both are of the same robot.
 ///
-/// A frame joins the first configuration whose first frame has the arm in the same place. The
-/// links decide, not the joints: a recording may hold joints of other things.
-pub(crate) fn group(poses: &[Vec<Transform<Base, Link>>]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (index, links) in poses.iter().enumerate() {
-        let known = groups.iter_mut().find(|group| same(&poses[group[0]], links));
-        match known {
-            Some(group) => group.push(index),
-            None => groups.push(vec![index]),
+/// The links decide, not the joints: a recording may hold joints of other things.
+pub(crate) fn same_place(a: &LinkPoses, b: &LinkPoses) -> bool {
+    a.iter().zip(b).all(|pair| match pair {
+        (Some(a), Some(b)) => {
+            let (metres, radians) = a.distance_to(b);
+            metres <= SAME_M && radians <= SAME_RAD
         }
-    }
-    groups
-}
-
-fn same(a: &[Transform<Base, Link>], b: &[Transform<Base, Link>]) -> bool {
-    a.iter().zip(b).all(|(a, b)| {
-        let (metres, radians) = a.distance_to(b);
-        metres <= SAME_M && radians <= SAME_RAD
+        (None, None) => true,
+        _ => false,
     })
 }
 

@@ -5,9 +5,9 @@ use crate::scene::{CAMERA_FROM_BASE, Shot};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
-use eyebolt::record::RecordError;
+use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_recording::Folder;
+use eyebolt_recording::{BagOptions, Recording};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{PackageRoots, Robot};
 use nalgebra::Point3;
@@ -50,7 +50,7 @@ pub fn run(folder: &Path, options: Options) -> Ran {
 
 /// As [`run`], for recordings that may not be read.
 pub fn try_run(folder: &Path, options: Options) -> Result<Ran, RecordError> {
-    let recording = Folder::open(folder).unwrap();
+    let recording = Recording::open(folder, &BagOptions::default()).unwrap();
     let section = recording.robot();
     let urdf = section.urdf.as_ref().unwrap();
     let robot = Robot::from_urdf_file(urdf, &PackageRoots::new()).unwrap();
@@ -59,7 +59,7 @@ pub fn try_run(folder: &Path, options: Options) -> Result<Ran, RecordError> {
         recording: &recording,
         arm: &arm,
         cache: &CACHE,
-        use_masks: options.use_masks,
+        options: RecordOptions { use_masks: options.use_masks, ..RecordOptions::default() },
         limits: Limits::default(),
         seed: options.seed,
     };

@@ -2,7 +2,7 @@
 
 use eyebolt::pipeline::Outcome;
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
-use eyebolt_recording::Folder;
+use eyebolt_recording::Recording;
 use eyebolt_registration::median;
 use eyebolt_render::Raster;
 use nalgebra::Matrix4;
@@ -26,7 +26,7 @@ pub fn apart(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> (f64, 
 }
 
 /// The masks of the recording's frames.
-pub fn masks(recording: &Folder) -> Vec<Mask> {
+pub fn masks(recording: &Recording) -> Vec<Mask> {
     let count = recording.frame_names().len();
     (0..count).map(|index| recording.read_frame(index).unwrap().mask.unwrap()).collect()
 }

@@ -2,8 +2,9 @@
 
 use eyebolt::calibrate::{Limits, Verdict};
 use eyebolt::pipeline::{Outcome, Request, run};
+use eyebolt::record::RecordOptions;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_recording::Folder;
+use eyebolt_recording::{BagOptions, Recording};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::io::Write;
@@ -56,7 +57,7 @@ impl Default for Variant {
 
 /// Everything a run needs, kept alive.
 pub struct Opened {
-    pub recording: Folder,
+    pub recording: Recording,
     arm: Arm,
     cache: LinkCache,
     masks: bool,
@@ -99,7 +100,7 @@ impl Variant {
         let [urdf, base, end_effector] = self.robot;
         let robot = Robot::from_urdf_file(&shared.join(urdf), &PackageRoots::new()).unwrap();
         Opened {
-            recording: Folder::open(folder.path()).unwrap(),
+            recording: Recording::open(folder.path(), &BagOptions::default()).unwrap(),
             arm: robot.arm(Some(base), Some(end_effector)).unwrap(),
             cache: LinkCache::new(std::env::temp_dir().join("eyebolt-test-links")),
             masks: self.masks,
@@ -116,7 +117,7 @@ impl Opened {
             recording: &self.recording,
             arm: &self.arm,
             cache: &self.cache,
-            use_masks: self.masks,
+            options: RecordOptions { use_masks: self.masks, ..RecordOptions::default() },
             limits: Limits::default(),
             seed: self.seed,
         }

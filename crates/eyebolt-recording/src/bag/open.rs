@@ -1,0 +1,241 @@
+//! Which files a bag is, and of which kind each is.
+
+use super::mcap::McapFile;
+use super::ros1::Ros1Bag;
+use super::sqlite::SqliteFile;
+use super::{BagFile, Message, Place, mcap, sqlite, zstd};
+use crate::error::RecordingError;
+use crate::file::read_text;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// What wrote a bag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BagKind {
+    /// MCAP.
+    Mcap,
+    /// ROS 2's bags in SQLite.
+    Sqlite,
+    /// ROS 1's bags.
+    Ros1,
+}
+
+impl BagKind {
+    /// Its name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mcap => "MCAP",
+            Self::Sqlite => "rosbag2 (SQLite)",
+            Self::Ros1 => "ROS 1 bag",
+        }
+    }
+}
+
+/// Where a message lies: which file, and where in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Locator {
+    file: u32,
+    place: Place,
+}
+
+impl Locator {
+    /// Number of the file among those of the bag.
+    pub(crate) fn file(self) -> u32 {
+        self.file
+    }
+}
+
+/// A bag of one file or several.
+#[derive(Debug)]
+pub(crate) struct Bag {
+    files: Vec<Box<dyn BagFile>>,
+    kind: BagKind,
+    metadata: Option<BTreeMap<String, String>>,
+    /// Decompressed copies, there as long as the bag is.
+    _unzipped: Vec<NamedTempFile>,
+}
+
+/// Name of the file that ROS 2 puts beside the files of a bag.
+const METADATA: &str = "metadata.yaml";
+
+/// Whether `path` is a folder or file that [`Bag::open`] should be given.
+pub(crate) fn looks_like_bag(path: &Path) -> bool {
+    if path.is_dir() { !files_in(path).is_empty() } else { magic(path).is_some() }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Magic {
+    Bag(BagKind),
+    Zstd,
+}
+
+fn magic(path: &Path) -> Option<Magic> {
+    let mut bytes = Vec::new();
+    File::open(path).ok()?.take(16).read_to_end(&mut bytes).ok()?;
+    if bytes.starts_with(&mcap::MAGIC) {
+        Some(Magic::Bag(BagKind::Mcap))
+    } else if bytes.starts_with(sqlite::FILE_MAGIC) {
+        Some(Magic::Bag(BagKind::Sqlite))
+    } else if bytes.starts_with(b"#ROSBAG V") {
+        Some(Magic::Bag(BagKind::Ros1))
+    } else {
+        bytes.starts_with(&zstd::MAGIC).then_some(Magic::Zstd)
+    }
+}
+
+/// The files of a folder that are bags by their names, sorted by these.
+fn files_in(folder: &Path) -> Vec<PathBuf> {
+    let named = |path: &PathBuf| {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let name = name.strip_suffix(".zstd").or(name.strip_suffix(".zst")).unwrap_or(name);
+        [".mcap", ".db3", ".bag"].iter().any(|ending| name.ends_with(ending))
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut files: Vec<_> = entries.map(|entry| entry.path()).filter(named).collect();
+    files.sort_by(|a, b| crate::pattern::natural_order(&a.to_string_lossy(), &b.to_string_lossy()));
+    files
+}
+
+#[derive(Debug, Deserialize)]
+struct Metadata {
+    rosbag2_bagfile_information: Information,
+}
+
+#[derive(Debug, Deserialize)]
+struct Information {
+    relative_file_paths: Vec<String>,
+}
+
+/// The files that the `metadata.yaml` of `folder` lists.
+fn listed_files(folder: &Path) -> Result<Vec<PathBuf>, RecordingError> {
+    let path = folder.join(METADATA);
+    let remedy = "Rebuild it with `ros2 bag reindex`, or give the bag's file itself";
+    let invalid = |field: &str, problem: String| {
+        RecordingError::invalid(&path, field, problem, remedy)
+    };
+    let text = read_text(&path, "the bag's description")?;
+    let metadata: Metadata = serde_saphyr::from_str(&text)
+        .map_err(|error| invalid("YAML", error.without_snippet().to_string()))?;
+    let file = |name: &String| {
+        let relative = Path::new(name);
+        let inside = relative.components().all(|part| matches!(part, Component::Normal(_)));
+        // Old versions wrote the folder's name before the file's.
+        let short = folder.join(relative.file_name().unwrap_or_default());
+        let file = if short.is_file() { short } else { folder.join(relative) };
+        match inside && file.is_file() {
+            true => Ok(file),
+            false => {
+                let problem = format!("\"{name}\" is not a file in the folder");
+                Err(invalid("relative_file_paths", problem))
+            }
+        }
+    };
+    metadata.rosbag2_bagfile_information.relative_file_paths.iter().map(file).collect()
+}
+
+impl Bag {
+    /// Opens the bag that `path` is, or that lies in the folder `path`. Files compressed as a whole
+    /// are decompressed to the folder `scratch` for as long as the bag is open.
+    pub(crate) fn open(path: &Path, scratch: &Path) -> Result<Self, RecordingError> {
+        let paths = if !path.is_dir() {
+            vec![path.to_path_buf()]
+        } else if path.join(METADATA).is_file() {
+            listed_files(path)?
+        } else {
+            one_file(path)?
+        };
+        let mut bag =
+            Self { files: Vec::new(), kind: BagKind::Mcap, metadata: None, _unzipped: Vec::new() };
+        for path in &paths {
+            bag.add(path, scratch)?;
+        }
+        match bag.files.is_empty() {
+            false => Ok(bag),
+            true => {
+                let remedy = "Give the folder or file that was recorded";
+                Err(RecordingError::invalid(path, "relative_file_paths", "no file is listed", remedy))
+            }
+        }
+    }
+
+    fn add(&mut self, path: &Path, scratch: &Path) -> Result<(), RecordingError> {
+        let mut found = magic(path);
+        let mut path = path.to_path_buf();
+        if found == Some(Magic::Zstd) {
+            let unzipped = zstd::unzip_file(&path, scratch)?;
+            path = unzipped.path().to_path_buf();
+            found = magic(&path);
+            self._unzipped.push(unzipped);
+        }
+        let file: Box<dyn BagFile> = match found {
+            Some(Magic::Bag(kind @ BagKind::Mcap)) => {
+                self.kind = kind;
+                let file = McapFile::open(&path)?;
+                self.metadata = file.metadata(crate::METADATA_NAME)?.or(self.metadata.take());
+                Box::new(file)
+            }
+            Some(Magic::Bag(kind @ BagKind::Sqlite)) => {
+                self.kind = kind;
+                Box::new(SqliteFile::open(&path)?)
+            }
+            Some(Magic::Bag(kind @ BagKind::Ros1)) => {
+                self.kind = kind;
+                Box::new(Ros1Bag::open(&path)?)
+            }
+            Some(Magic::Zstd) | None => {
+                // Reading it tells whether it is there at all.
+                File::open(&path).map_err(|cause| RecordingError::unreadable_bag(&path, cause))?;
+                let problem = "the file is neither MCAP nor SQLite nor a ROS 1 bag";
+                let remedy = "Give a bag, or a folder with a recording.toml";
+                return Err(RecordingError::invalid(&path, "kind of file", problem, remedy));
+            }
+        };
+        self.files.push(file);
+        Ok(())
+    }
+
+    pub(crate) fn kind(&self) -> BagKind {
+        self.kind
+    }
+
+    /// What eyebolt wrote into the bag about itself, if it wrote the bag.
+    pub(crate) fn metadata(&self) -> Option<&BTreeMap<String, String>> {
+        self.metadata.as_ref()
+    }
+
+    /// Hands every message with its number among the files to `each`; see [`BagFile::scan`].
+    pub(crate) fn scan(
+        &self,
+        each: &mut dyn FnMut(Locator, &Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        for (number, file) in (0..).zip(&self.files) {
+            let mut with_file =
+                |message: &Message<'_>| each(Locator { file: number, place: message.place }, message);
+            file.scan(&mut with_file, damage)?;
+        }
+        Ok(())
+    }
+
+    /// The bytes of a message.
+    pub(crate) fn read(&self, locator: Locator) -> Result<Vec<u8>, RecordingError> {
+        let file = self.files.get(locator.file as usize);
+        file.expect("a locator is of the bag that told it").read(locator.place)
+    }
+}
+
+/// The only bag in a folder without a description.
+fn one_file(folder: &Path) -> Result<Vec<PathBuf>, RecordingError> {
+    let files = files_in(folder);
+    if files.len() <= 1 {
+        return Ok(files);
+    }
+    let names: Vec<_> = files.iter().map(|file| file.display().to_string()).collect();
+    let problem = format!("the folder has no {METADATA} and several bags: {}", names.join(", "));
+    let remedy = "Give one of them, or rebuild the description with `ros2 bag reindex`";
+    Err(RecordingError::invalid(folder, "bag", problem, remedy))
+}

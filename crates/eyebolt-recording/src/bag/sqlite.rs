@@ -1,0 +1,172 @@
+//! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`), messages compressed or not.
+
+use super::zstd::{MAGIC, Unzipper};
+use super::{BagFile, Encoding, LARGEST_CHUNK, Message, Place, Topic, ros_type};
+use crate::error::RecordingError;
+use rusqlite::limits::Limit;
+use rusqlite::{Connection, OpenFlags, OptionalExtension, Row};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The first bytes of a file.
+pub(super) const FILE_MAGIC: &[u8; 15] = b"SQLite format 3";
+
+/// A bag in SQLite.
+#[derive(Debug)]
+pub(crate) struct SqliteFile {
+    path: PathBuf,
+    topics: Vec<Topic>,
+    /// Which of `topics` a `topic_id` is.
+    index_of: BTreeMap<i64, usize>,
+}
+
+/// Topics of the largest bag.
+const MOST_TOPICS: usize = 100_000;
+
+impl SqliteFile {
+    /// Opens the bag and lists its topics.
+    pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
+        let mut file =
+            Self { path: path.to_path_buf(), topics: Vec::new(), index_of: BTreeMap::new() };
+        let connection = file.connect()?;
+        let listed = file.list_topics(&connection);
+        file.fill(listed.map_err(|error| file.damaged(&error))?);
+        Ok(file)
+    }
+
+    fn fill(&mut self, listed: Vec<(i64, Topic)>) {
+        for (id, topic) in listed {
+            let known = self.topics.iter().position(|other| *other == topic);
+            let index = known.unwrap_or_else(|| {
+                self.topics.push(topic);
+                self.topics.len() - 1
+            });
+            self.index_of.insert(id, index);
+        }
+    }
+
+    fn list_topics(&self, connection: &Connection) -> rusqlite::Result<Vec<(i64, Topic)>> {
+        let sql = "SELECT id, name, type, serialization_format FROM topics ORDER BY id LIMIT ?1";
+        let mut statement = connection.prepare(sql)?;
+        let topic = |row: &Row<'_>| {
+            let (id, name, kind, format): (i64, String, String, String) =
+                (row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?);
+            let encoding =
+                if format == "cdr" { Encoding::Cdr } else { Encoding::Other(format) };
+            Ok((id, Topic { name, message_type: ros_type(&kind), encoding }))
+        };
+        statement.query_map([MOST_TOPICS as i64], topic)?.collect()
+    }
+
+    fn connect(&self) -> Result<Connection, RecordingError> {
+        let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        let opened = Connection::open_with_flags(&self.path, flags).and_then(|connection| {
+            // A hostile file must not make SQLite evaluate its own expressions, or large values.
+            connection.pragma_update(None, "trusted_schema", false)?;
+            connection.pragma_update(None, "cell_size_check", true)?;
+            let limit = i32::try_from(LARGEST_CHUNK).unwrap_or(i32::MAX);
+            connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, limit)?;
+            Ok(connection)
+        });
+        let connection = opened.map_err(|error| self.damaged(&error))?;
+        for table in ["topics", "messages"] {
+            self.check_table(&connection, table)?;
+        }
+        Ok(connection)
+    }
+
+    /// A view or virtual table in a table's place could run for ever.
+    fn check_table(&self, connection: &Connection, table: &str) -> Result<(), RecordingError> {
+        let sql = "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?1";
+        let found = connection.query_row(sql, [table], |row| row.get::<_, String>(0)).optional();
+        let found = found.map_err(|error| self.damaged(&error))?;
+        let plain = |sql: &String| {
+            let upper = sql.to_ascii_uppercase();
+            upper.starts_with("CREATE TABLE") && !upper.contains("GENERATED")
+        };
+        if found.as_ref().is_some_and(plain) {
+            return Ok(());
+        }
+        let problem = "the database has no such table, so it is no bag";
+        let remedy = "Give the file or folder that `ros2 bag record` wrote";
+        Err(RecordingError::invalid(&self.path, format!("table {table}"), problem, remedy))
+    }
+
+    fn damaged(&self, error: &rusqlite::Error) -> RecordingError {
+        let remedy = "The file is damaged or no bag: copy it again, or recover it with the \
+                      `.recover` command of sqlite3";
+        RecordingError::invalid(&self.path, "database", error.to_string(), remedy)
+    }
+
+    fn bad_row(&self, row: i64, problem: String) -> RecordingError {
+        let remedy = "The message is damaged: copy the bag again, or give --partial to go without it";
+        RecordingError::invalid(&self.path, format!("message {row}"), problem, remedy)
+    }
+
+    fn message_at(
+        &self,
+        row: &Row<'_>,
+        unzipper: &mut Unzipper,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        let fields = || -> rusqlite::Result<(i64, i64, i64, &[u8])> {
+            Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get_ref(3)?.as_blob()?))
+        };
+        let (id, topic_id, log_time_ns, data) = match fields() {
+            Ok(fields) => fields,
+            Err(error) => return damage(self.damaged(&error)),
+        };
+        let index = self.index_of.get(&topic_id).copied();
+        let Some((topic_index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
+            return damage(self.bad_row(id, format!("there is no topic {topic_id}")));
+        };
+        let data = match unzipped(data, unzipper) {
+            Ok(data) => data,
+            Err(problem) => return damage(self.bad_row(id, problem)),
+        };
+        each(&Message { topic, topic_index, log_time_ns, place: Place::Row(id), data })
+    }
+}
+
+/// The message, decompressed where it is compressed.
+fn unzipped<'a>(data: &'a [u8], unzipper: &'a mut Unzipper) -> Result<&'a [u8], String> {
+    if data.starts_with(&MAGIC) { unzipper.unzip(data, None) } else { Ok(data) }
+}
+
+impl BagFile for SqliteFile {
+    fn scan(
+        &self,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        let connection = self.connect()?;
+        let sql = "SELECT id, topic_id, timestamp, data FROM messages ORDER BY id";
+        let failed = |error: rusqlite::Error| self.damaged(&error);
+        let mut statement = connection.prepare(sql).map_err(failed)?;
+        let mut rows = statement.query([]).map_err(failed)?;
+        let mut unzipper = Unzipper::default();
+        loop {
+            match rows.next() {
+                Ok(Some(row)) => self.message_at(row, &mut unzipper, each, damage)?,
+                Ok(None) => return Ok(()),
+                // The database cannot be read on from here.
+                Err(error) => return damage(self.damaged(&error)),
+            }
+        }
+    }
+
+    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
+        let Place::Row(id) = place else {
+            return Err(self.bad_row(0, "a byte was asked for".to_owned()));
+        };
+        let connection = self.connect()?;
+        let sql = "SELECT data FROM messages WHERE id = ?1";
+        let data: Vec<u8> = connection
+            .query_row(sql, [id], |row| row.get(0))
+            .map_err(|error| self.damaged(&error))?;
+        let mut unzipper = Unzipper::default();
+        let message = unzipped(&data, &mut unzipper).map(<[u8]>::to_vec);
+        message.map_err(|problem| self.bad_row(id, problem))
+    }
+}

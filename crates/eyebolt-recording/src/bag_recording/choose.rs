@@ -1,0 +1,247 @@
+//! Which topics of a bag are the recording.
+
+use super::BagOptions;
+use super::scan::{Content, PictureKind, Scan, TopicScan};
+use crate::error::RecordingError;
+use std::path::Path;
+
+/// Numbers of topics in a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Chosen {
+    pub(super) range: usize,
+    pub(super) camera_info: Option<usize>,
+    pub(super) joints: usize,
+    pub(super) description: Option<usize>,
+    pub(super) color: Option<usize>,
+    pub(super) mask: Option<usize>,
+}
+
+impl Chosen {
+    /// The topics that `options` name, else the only ones that can be meant.
+    pub(super) fn new(
+        path: &Path,
+        scan: &Scan,
+        options: &BagOptions,
+    ) -> Result<Self, RecordingError> {
+        let choice = Choice { path, scan };
+        let range = choice.range(options.depth_topic.as_deref())?;
+        let joints = choice.one(
+            "--joint-topic",
+            "joint states (sensor_msgs/JointState)",
+            options.joint_topic.as_deref(),
+            &|topic| matches!(&topic.content, Content::Joints(tracks) if !tracks.is_empty()),
+        )?;
+        let Some(joints) = joints else {
+            return Err(choice.none("--joint-topic", "joint states (sensor_msgs/JointState)"));
+        };
+        let camera_info = match options.camera_info {
+            Some(_) => None,
+            None => choice.camera_info(options.camera_info_topic.as_deref(), range)?,
+        };
+        let color = choice.beside(range, "--color-topic", options.color_topic.as_deref(), is_color)?;
+        let mask = choice.beside(range, "--mask-topic", options.mask_topic.as_deref(), |topic| {
+            topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
+        })?;
+        let description = choice.one(
+            "--description-topic",
+            "a robot description (std_msgs/String)",
+            options.description_topic.as_deref(),
+            &|topic| {
+                topic.name.ends_with("robot_description")
+                    && matches!(&topic.content, Content::Text(text) if !text.is_empty())
+            },
+        )?;
+        Ok(Self { range, camera_info, joints, description, color, mask })
+    }
+}
+
+/// Pictures of one byte a pixel.
+const GREY: [&str; 2] = ["mono8", "8UC1"];
+const COLORS: [&str; 4] = ["rgb8", "bgr8", "rgba8", "bgra8"];
+
+fn encoding(topic: &TopicScan) -> Option<&str> {
+    match &topic.content {
+        Content::Pictures { kind: PictureKind::Image { encoding, .. }, .. } => Some(encoding),
+        _ => None,
+    }
+}
+
+fn is_color(topic: &TopicScan) -> bool {
+    encoding(topic).is_some_and(|encoding| COLORS.contains(&encoding))
+}
+
+fn size(topic: &TopicScan) -> Option<(u32, u32)> {
+    match &topic.content {
+        Content::Pictures { kind: PictureKind::Image { size, .. }, .. }
+        | Content::Pictures { kind: PictureKind::Cloud { size }, .. } => Some(*size),
+        Content::CameraInfo { first, .. } => first.as_ref().map(super::scan::Intrinsics::size),
+        _ => None,
+    }
+}
+
+fn rank(topic: &TopicScan) -> Option<u8> {
+    match &topic.content {
+        Content::Pictures { kind, .. } => kind.range_rank(),
+        _ => None,
+    }
+}
+
+struct Choice<'a> {
+    path: &'a Path,
+    scan: &'a Scan,
+}
+
+impl Choice<'_> {
+    fn range(&self, wanted: Option<&str>) -> Result<usize, RecordingError> {
+        let what = "depth (Image in 16UC1 or 32FC1, compressedDepth, or PointCloud2)";
+        // A camera's depth image is often recorded beside the cloud that was made of it.
+        let best = self.scan.topics.iter().filter_map(rank).min();
+        let fits = |topic: &TopicScan| {
+            rank(topic).is_some() && (wanted.is_some() || rank(topic) == best)
+        };
+        let found = self.one("--depth-topic", what, wanted, &fits)?;
+        found.ok_or_else(|| self.none("--depth-topic", what))
+    }
+
+    /// The topic called `wanted`, else the only one that `fits`.
+    fn one(
+        &self,
+        flag: &str,
+        what: &str,
+        wanted: Option<&str>,
+        fits: &dyn Fn(&TopicScan) -> bool,
+    ) -> Result<Option<usize>, RecordingError> {
+        let topics = || self.scan.topics.iter().enumerate();
+        if let Some(wanted) = wanted {
+            let found = topics().find(|(_, topic)| topic.name == wanted);
+            return match found {
+                Some((number, topic)) if fits(topic) => Ok(Some(number)),
+                Some((_, topic)) => {
+                    let problem = format!(
+                        "{wanted} is of type {} and has no {what} that can be read",
+                        topic.message_type
+                    );
+                    Err(RecordingError::invalid(self.path, flag, problem, self.candidates(fits)))
+                }
+                None => {
+                    let problem = format!("there is no topic {wanted}");
+                    Err(RecordingError::invalid(self.path, flag, problem, self.candidates(fits)))
+                }
+            };
+        }
+        let mut found = topics().filter(|(_, topic)| fits(topic)).map(|(number, _)| number);
+        match (found.next(), found.next()) {
+            (Some(_), Some(_)) => {
+                let problem = format!("several topics have {what}");
+                Err(RecordingError::invalid(self.path, flag, problem, self.candidates(fits)))
+            }
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// Says which topics could be meant.
+    fn candidates(&self, fits: &dyn Fn(&TopicScan) -> bool) -> String {
+        let fitting: Vec<_> =
+            self.scan.topics.iter().filter(|t| fits(t)).map(|t| t.name.as_str()).collect();
+        match fitting.is_empty() {
+            true => format!("There is none that would do; the bag has {}", self.all()),
+            false => format!("Give one of {}", fitting.join(", ")),
+        }
+    }
+
+    fn none(&self, flag: &str, what: &str) -> RecordingError {
+        let remedy = format!("Record it too; the bag has {}", self.all());
+        RecordingError::invalid(self.path, flag, format!("no topic has {what}"), remedy)
+    }
+
+    fn all(&self) -> String {
+        let topics = self.scan.topics.iter();
+        let names: Vec<_> = topics.map(|t| format!("{} ({})", t.name, t.message_type)).collect();
+        if names.is_empty() { "no messages at all".to_owned() } else { names.join(", ") }
+    }
+
+    /// The camera of the depth topic: beside it by ROS's convention, else the only one of its size
+    /// and frame.
+    fn camera_info(
+        &self,
+        wanted: Option<&str>,
+        range: usize,
+    ) -> Result<Option<usize>, RecordingError> {
+        let flag = "--camera-info-topic";
+        let what = "the intrinsics (sensor_msgs/CameraInfo)";
+        let infos = |topic: &TopicScan| matches!(&topic.content, Content::CameraInfo { first, .. } if first.is_some());
+        if wanted.is_some() {
+            return self.one(flag, what, wanted, &infos);
+        }
+        let Some(depth) = self.scan.topics.get(range) else { return Ok(None) };
+        let beside = siblings(&depth.name).into_iter().find_map(|name| {
+            self.scan.topics.iter().position(|topic| topic.name == name && infos(topic))
+        });
+        if beside.is_some() {
+            return Ok(beside);
+        }
+        let same = |topic: &TopicScan| {
+            infos(topic)
+                && (size(depth).is_none() || size(topic) == size(depth))
+                && (depth.frame_id.is_none() || topic.frame_id == depth.frame_id)
+        };
+        let found = self.one(flag, what, None, &same)?;
+        // Clouds tell their camera themselves, if they have one.
+        let cloud = matches!(
+            &depth.content,
+            Content::Pictures { kind: PictureKind::Cloud { .. }, .. }
+        );
+        match found {
+            None if !cloud => {
+                let problem = format!("no topic has the intrinsics of {}", depth.name);
+                let remedy = format!(
+                    "Record its camera_info, or give it as a file with --camera-info; {}",
+                    self.candidates(&infos)
+                );
+                Err(RecordingError::invalid(self.path, flag, problem, remedy))
+            }
+            found => Ok(found),
+        }
+    }
+
+    /// A topic of pictures that show what the depth shows, pixel by pixel.
+    fn beside(
+        &self,
+        range: usize,
+        flag: &str,
+        wanted: Option<&str>,
+        fits: impl Fn(&TopicScan) -> bool,
+    ) -> Result<Option<usize>, RecordingError> {
+        if wanted.is_some() {
+            return self.one(flag, "pictures (sensor_msgs/Image)", wanted, &|topic| {
+                encoding(topic).is_some()
+            });
+        }
+        let Some(depth) = self.scan.topics.get(range) else { return Ok(None) };
+        let mut fitting = self.scan.topics.iter().enumerate().filter(|(_, topic)| {
+            fits(topic) && size(topic) == size(depth) && topic.frame_id == depth.frame_id
+        });
+        // Pictures are for people: among several, none is better than the wrong one.
+        Ok(fitting.next().map(|(number, _)| number).filter(|_| fitting.next().is_none()))
+    }
+}
+
+/// Where drivers publish the intrinsics of a topic of pictures, or of its compressed form.
+fn siblings(topic: &str) -> Vec<String> {
+    let above = |name: &str| name.rsplit_once('/').map(|(above, _)| above.to_owned());
+    let picture = topic.strip_suffix("/compressedDepth");
+    let folders = [above(topic), picture.and_then(above)];
+    folders.into_iter().flatten().map(|folder| format!("{folder}/camera_info")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intrinsics_are_beside_the_picture() {
+        assert_eq!(siblings("/zed/depth/depth_registered"), ["/zed/depth/camera_info"]);
+        assert_eq!(siblings("/cam/image_raw/compressedDepth")[1], "/cam/camera_info");
+        assert_eq!(siblings("/depth"), ["/camera_info"]);
+    }
+}

@@ -1,0 +1,192 @@
+//! Frames of a bag, from their messages.
+
+use super::scan::{FrameEntry, TopicScan};
+use super::{BagRecording, clouds};
+use crate::bag::Locator;
+use crate::color::ColorImage;
+use crate::error::RecordingError;
+use crate::frame::{Frame, Range};
+use crate::manifest::Unit;
+use crate::message::{
+    CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, types,
+};
+use crate::unit_check::check_unit;
+use eyebolt_geometry::{Cloud, DepthImage, Mask};
+use nalgebra::Point3;
+
+/// Pictures belong to a frame that are stamped no further from it than this, nanoseconds.
+const SAME_MOMENT_NS: u64 = 50_000_000;
+
+impl BagRecording {
+    /// Reads frame `index`, counted from 0 among those that take part.
+    ///
+    /// # Errors
+    ///
+    /// No such frame; a message that cannot be read, does not fit the camera or cannot be in its
+    /// unit; an empty mask.
+    pub fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
+        let joints = self.read_joints(index)?;
+        let entry = self.entry(index)?;
+        let range = self.range(&entry)?;
+        let mask = self.mask(&entry, &range)?;
+        let name = self.names.get(index).cloned().unwrap_or_default();
+        Ok(Frame { name, range, mask, joints })
+    }
+
+    /// Reads the colour picture of frame `index`; `None` if there is none of that moment.
+    ///
+    /// # Errors
+    ///
+    /// No such frame, or a message that cannot be read.
+    pub fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
+        let entry = self.entry(index)?;
+        let Some(number) = self.chosen.color else { return Ok(None) };
+        let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
+        self.image(number, picture.locator, |image| {
+            let (width, height) = (image.width, image.height);
+            Ok(image.rgb()?.map(|rgb| ColorImage { width, height, rgb }))
+        })
+    }
+
+    fn entry(&self, index: usize) -> Result<FrameEntry, RecordingError> {
+        let kept = self.kept(index)?;
+        let entry = self.entries(self.chosen.range).get(kept.index);
+        Ok(*entry.expect("frames that take part are of the topic"))
+    }
+
+    /// Depth image or cloud of a frame, in the optical frame.
+    fn range(&self, entry: &FrameEntry) -> Result<Range, RecordingError> {
+        let topic = self.range_topic();
+        let bytes = self.bag.read(entry.locator)?;
+        let wrong = |problem: WireProblem| self.unreadable_frame(topic, entry, &problem);
+        let mut reader = WireReader::new(&topic.encoding, &bytes).map_err(wrong)?;
+        let (size, depth_m, in_millimetres) = match topic.message_type.as_str() {
+            types::CLOUD => {
+                let points = CloudMessage::read(&mut reader).and_then(|cloud| {
+                    Ok((cloud.points()?, (cloud.width, cloud.height)))
+                });
+                let (points, size) = points.map_err(wrong)?;
+                return self.cloud(entry, points, size).map(Range::Cloud);
+            }
+            types::IMAGE => {
+                let image = ImageMessage::read(&mut reader).map_err(wrong)?;
+                let (depth_m, in_millimetres) = image.depth_m().map_err(wrong)?;
+                ((image.width, image.height), depth_m, in_millimetres)
+            }
+            _ => {
+                let depth = CompressedImageMessage::read(&mut reader).and_then(|m| m.depth());
+                let depth = depth.map_err(wrong)?;
+                ((depth.width, depth.height), depth.depth_m, depth.in_millimetres)
+            }
+        };
+        let unit = if in_millimetres { Unit::Millimetres } else { Unit::Metres };
+        self.check_depth(entry, size, &depth_m, unit)?;
+        let (width, height) = size;
+        let image = DepthImage::new(width, height, depth_m);
+        image.map(Range::Depth).map_err(|error| wrong(WireProblem::new("data", error.to_string())))
+    }
+
+    fn check_depth(
+        &self,
+        entry: &FrameEntry,
+        (width, height): (u32, u32),
+        depth_m: &[f32],
+        unit: Unit,
+    ) -> Result<(), RecordingError> {
+        let topic = self.range_topic();
+        let field = frame_field(topic, entry);
+        let camera = self.camera().filter(|c| (c.width(), c.height()) != (width, height));
+        if let Some(camera) = camera {
+            let (w, h) = (camera.width(), camera.height());
+            let problem =
+                format!("the image is {width} x {height}, but its camera info is {w} x {h}");
+            let remedy = "Give the camera info of the depth with --camera-info-topic or \
+                          --camera-info";
+            return Err(self.invalid(&field, problem, remedy));
+        }
+        check_unit(&self.path, &field, unit, depth_m.iter().copied()).map_err(|error| {
+            let remedy = "Correct the driver: 16UC1 is in millimetres and 32FC1 in metres (REP 118)";
+            self.invalid(&field, error.problem(), remedy)
+        })
+    }
+
+    fn cloud(
+        &self,
+        entry: &FrameEntry,
+        points: Vec<[f32; 3]>,
+        (width, height): (u32, u32),
+    ) -> Result<Cloud, RecordingError> {
+        let topic = self.range_topic();
+        let field = frame_field(topic, entry);
+        check_unit(&self.path, &field, Unit::Metres, points.iter().map(norm))?;
+        let frame = match self.cloud_frame {
+            Some(frame) => frame,
+            None => clouds::frame_of(topic.frame_id.as_deref(), &points).map_err(|problem| {
+                let remedy = "Give --cloud-frame optical (x right, y down, z forward) or body \
+                              (x forward, y left, z up)";
+                self.invalid(&field, problem, remedy)
+            })?,
+        };
+        let points: Vec<Point3<f32>> =
+            points.into_iter().map(|xyz| crate::cloud::optical(xyz, frame)).collect();
+        if height <= 1 {
+            return Ok(Cloud::new(points));
+        }
+        let cloud = Cloud::organised(width, height, points);
+        cloud.map_err(|error| self.invalid(&field, error.to_string(), "Record it again"))
+    }
+
+    fn mask(&self, entry: &FrameEntry, range: &Range) -> Result<Option<Mask>, RecordingError> {
+        let Some(number) = self.chosen.mask else { return Ok(None) };
+        let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
+        let mask = self.image(number, picture.locator, |image| image.mask())?;
+        match range.size() {
+            Some(size) if size != (mask.width(), mask.height()) => {
+                let (w, h) = (mask.width(), mask.height());
+                let problem = format!("the mask is {w} x {h}, the frame {} x {}", size.0, size.1);
+                let field = frame_field(self.topic(number), &picture);
+                Err(self.invalid(&field, problem, "Both must be of the same camera and size"))
+            }
+            _ => Ok(Some(mask)),
+        }
+    }
+
+    /// Reads a message with a picture and makes something of it.
+    fn image<T>(
+        &self,
+        number: usize,
+        locator: Locator,
+        make: impl FnOnce(&ImageMessage<'_>) -> Result<T, WireProblem>,
+    ) -> Result<T, RecordingError> {
+        let topic = self.topic(number);
+        let bytes = self.bag.read(locator)?;
+        let made = WireReader::new(&topic.encoding, &bytes)
+            .and_then(|mut reader| ImageMessage::read(&mut reader))
+            .and_then(|image| make(&image));
+        made.map_err(|problem| self.unreadable(topic, &problem))
+    }
+
+    fn unreadable_frame(
+        &self,
+        topic: &TopicScan,
+        entry: &FrameEntry,
+        problem: &WireProblem,
+    ) -> RecordingError {
+        let field = format!("{}: {}", frame_field(topic, entry), problem.field);
+        self.invalid(&field, problem.problem.clone(), "Record it again")
+    }
+}
+
+fn frame_field(topic: &TopicScan, entry: &FrameEntry) -> String {
+    format!("{} at {:.3} s", topic.name, entry.stamp_ns as f64 * 1e-9)
+}
+
+fn norm([x, y, z]: &[f32; 3]) -> f32 {
+    x.hypot(*y).hypot(*z)
+}
+
+/// The picture of the moment `stamp_ns`, if there is one.
+fn nearest(entries: &[FrameEntry], stamp_ns: i64) -> Option<FrameEntry> {
+    let nearest = entries.iter().min_by_key(|entry| entry.stamp_ns.abs_diff(stamp_ns));
+    nearest.filter(|entry| entry.stamp_ns.abs_diff(stamp_ns) <= SAME_MOMENT_NS).copied()
+}
