@@ -1,5 +1,7 @@
 //! Bags: files of messages with time stamps, whatever wrote them.
 
+mod ros1;
+
 use crate::error::RecordingError;
 
 /// A stream of messages of one type.
