@@ -1,0 +1,155 @@
+//! Bags of ROS 1, format 2.0.
+//!
+//! The format is told at <http://wiki.ros.org/Bags/Format/2.0>. A file is read from its beginning
+//! to its end whatever its index says, so that what a killed recorder left (`.bag.active`, without
+//! an index) is read like any other. The index only helps out where a chunk is corrupt.
+
+mod buffer;
+mod chunk;
+mod connections;
+mod contents;
+mod fault;
+mod header;
+mod scan;
+mod source;
+#[cfg(test)]
+mod tests;
+
+use super::{BagFile, LARGEST_CHUNK, Message, Place};
+use crate::error::RecordingError;
+use chunk::Chunk;
+use fault::{Fault, Taker};
+use header::{Header, Op};
+use scan::Scan;
+use source::Source;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
+
+/// Larger chunks are not kept from one message to the next, bytes.
+const LARGEST_KEPT: usize = 64 << 20;
+
+/// A file of a ROS 1 recorder.
+#[derive(Debug)]
+pub(crate) struct Ros1Bag {
+    path: PathBuf,
+    kept: Mutex<Option<Kept>>,
+}
+
+/// The chunk that was decompressed last, as messages are mostly asked for in order.
+#[derive(Debug)]
+struct Kept {
+    /// Where its record begins in the file.
+    chunk: u64,
+    bytes: Arc<Vec<u8>>,
+}
+
+impl Ros1Bag {
+    /// The bag at `path`. Errors if the file cannot be read or does not begin as one.
+    pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
+        let mut source = Source::open(path)?;
+        let mut magic = Vec::new();
+        let length = source.end().min(MAGIC.len() as u64);
+        source.fill(&mut magic, length)?;
+        if magic == MAGIC {
+            return Ok(Self { path: path.to_path_buf(), kept: Mutex::new(None) });
+        }
+        let invalid = |problem: &str, remedy| {
+            Err(RecordingError::invalid(path, "the first line", problem, remedy))
+        };
+        match magic.strip_prefix(b"#ROSBAG V").and_then(|rest| rest.strip_suffix(b"\n")) {
+            Some(version) => invalid(
+                &format!("version {} of bags is not read", version.escape_ascii()),
+                "Convert it to version 2.0 with `rosbag reindex`",
+            ),
+            None => invalid("it is not `#ROSBAG V2.0`", "Name a file that ROS 1 recorded"),
+        }
+    }
+
+    fn read_bytes(&self, start: u64, length: u32) -> Result<Vec<u8>, Fault> {
+        let mut source = Source::open(&self.path)?;
+        let length = u64::from(length);
+        if length > LARGEST_CHUNK || start.saturating_add(length) > source.end() {
+            return Err("it is not in the file".into());
+        }
+        source.seek(start)?;
+        let mut bytes = Vec::new();
+        source.fill(&mut bytes, length)?;
+        Ok(bytes)
+    }
+
+    fn read_from_chunk(&self, chunk: u64, start: u32, length: u32) -> Result<Vec<u8>, Fault> {
+        let start = usize::try_from(start).unwrap_or(usize::MAX);
+        let end = start.saturating_add(usize::try_from(length).unwrap_or(usize::MAX));
+        match Arc::try_unwrap(self.contents(chunk)?) {
+            Err(kept) => Ok(kept.get(start..end).ok_or("it is not in its chunk")?.to_vec()),
+            // Nobody else wants the chunk, which is large: its memory becomes the message's.
+            Ok(mut bytes) if end <= bytes.len() => {
+                bytes.truncate(end);
+                bytes.drain(..start);
+                bytes.shrink_to_fit();
+                Ok(bytes)
+            }
+            Ok(_) => Err("it is not in its chunk".into()),
+        }
+    }
+
+    /// The chunk whose record begins at byte `chunk`, decompressed.
+    fn contents(&self, chunk: u64) -> Result<Arc<Vec<u8>>, Fault> {
+        let kept = || self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(kept) = kept().as_ref().filter(|kept| kept.chunk == chunk) {
+            return Ok(Arc::clone(&kept.bytes));
+        }
+        // Not under the lock, so that threads that want different chunks do not wait.
+        let bytes = Arc::new(self.decompress(chunk)?);
+        if bytes.len() <= LARGEST_KEPT {
+            *kept() = Some(Kept { chunk, bytes: Arc::clone(&bytes) });
+        }
+        Ok(bytes)
+    }
+
+    fn decompress(&self, chunk: u64) -> Result<Vec<u8>, Fault> {
+        let mut source = Source::open(&self.path)?;
+        source.seek(chunk)?;
+        let (mut header, mut bytes) = (Vec::new(), Vec::new());
+        let end = source.end();
+        let record = source.record(end, &mut header)?;
+        let header = Header::parse(&header)?;
+        if header.op()? != Op::Chunk {
+            return Err("it is not a chunk".into());
+        }
+        Chunk::parse(header)?.decompress(&mut source, record, &mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+impl BagFile for Ros1Bag {
+    fn scan(
+        &self,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        Scan::new(&self.path, MAGIC.len() as u64)?.run(&mut Taker { each, damage })
+    }
+
+    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
+        match place {
+            Place::Bytes { start, length } => self
+                .read_bytes(start, length)
+                .map_err(|fault| fault.at(&self.path, format!("message at byte {start}"))),
+            Place::InChunk { chunk, start, length } => {
+                self.read_from_chunk(chunk, start, length).map_err(|fault| {
+                    let field = format!("message at byte {start} of the chunk at byte {chunk}");
+                    fault.at(&self.path, field)
+                })
+            }
+            Place::Row(row) => Err(RecordingError::invalid(
+                &self.path,
+                format!("message of row {row}"),
+                "a bag of ROS 1 has no rows",
+                "Scan the file for its messages",
+            )),
+        }
+    }
+}

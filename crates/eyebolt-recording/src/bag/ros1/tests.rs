@@ -1,0 +1,76 @@
+//! Bags that `rosbags` wrote, and bags that nobody should write.
+
+mod buffer;
+mod hostile;
+mod recorder;
+mod rosbags;
+mod unfinished;
+mod writer;
+
+use super::Ros1Bag;
+use crate::bag::{BagFile, Encoding, Place};
+use crate::error::RecordingError;
+use std::io::Write;
+use tempfile::NamedTempFile;
+
+/// A message as a scan told it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Told {
+    topic: String,
+    message_type: String,
+    topic_index: usize,
+    log_time_ns: i64,
+    place: Place,
+    data: Vec<u8>,
+}
+
+/// Everything that a scan told which goes on behind damage: messages, and what was wrong.
+fn scan(bag: &Ros1Bag) -> (Vec<Told>, Vec<String>) {
+    let (mut messages, mut problems) = (Vec::new(), Vec::new());
+    bag.scan(
+        &mut |message| {
+            assert_eq!(message.topic.encoding, Encoding::Ros1);
+            messages.push(Told {
+                topic: message.topic.name.clone(),
+                message_type: message.topic.message_type.clone(),
+                topic_index: message.topic_index,
+                log_time_ns: message.log_time_ns,
+                place: message.place,
+                data: message.data.to_vec(),
+            });
+            Ok(())
+        },
+        &mut |error| {
+            problems.push(said(error));
+            Ok(())
+        },
+    )
+    .unwrap();
+    (messages, problems)
+}
+
+/// All messages of a bag that must be whole.
+fn scan_whole(bag: &Ros1Bag) -> Vec<Told> {
+    let (messages, problems) = scan(bag);
+    assert_eq!(problems, Vec::<String>::new());
+    messages
+}
+
+/// The error without the folder in which the file is.
+fn said(error: RecordingError) -> String {
+    let file = error.path().file_name().unwrap().to_str().unwrap();
+    error.to_string().replace(error.path().to_str().unwrap(), file)
+}
+
+/// A bag of these bytes. The file lives as long as what is returned with it.
+fn bag(bytes: &[u8]) -> (NamedTempFile, Ros1Bag) {
+    let file = file(bytes);
+    let bag = Ros1Bag::open(file.path()).unwrap();
+    (file, bag)
+}
+
+fn file(bytes: &[u8]) -> NamedTempFile {
+    let mut file = NamedTempFile::new().unwrap();
+    file.write_all(bytes).unwrap();
+    file
+}

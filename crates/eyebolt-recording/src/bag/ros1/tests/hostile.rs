@@ -1,0 +1,136 @@
+//! Bags that lie.
+
+mod chunks;
+mod headers;
+
+use super::writer::{MAGIC, bag_header, connection, message, record, true_chunk, unindexed};
+use super::{bag, file, said, scan};
+use crate::bag::ros1::Ros1Bag;
+use crate::bag::{BagFile, Place};
+use crate::error::RecordingError;
+use std::path::Path;
+
+const REST: &str = "The file is damaged: copy it again, or give --partial to use the rest";
+
+fn camera() -> Vec<u8> {
+    connection(0, "/camera", "sensor_msgs/Image")
+}
+
+/// What is wrong with `bad`, which stands between two good messages that must come all the same.
+fn problems_of(bad: &[u8]) -> Vec<String> {
+    let records = [camera(), message(0, [1, 0], b"a"), bad.to_vec(), message(0, [2, 0], b"b")];
+    let (messages, problems) = scan(&bag(&unindexed(&records)).1);
+    let data: Vec<_> = messages.iter().map(|m| m.data.as_slice()).collect();
+    assert_eq!(data, [b"a", b"b"], "{problems:?}");
+    problems
+}
+
+/// As [`problems_of`], for one problem, without the file's name, the place and the usual remedy.
+fn problem_of(bad: &[u8]) -> String {
+    let problems = problems_of(bad);
+    let [problem] = problems.as_slice() else { panic!("{problems:?}") };
+    let at = unindexed(&[camera(), message(0, [1, 0], b"a")]).len();
+    let (_, problem) = problem.split_once(&format!(": record at byte {at}: ")).unwrap();
+    problem.strip_suffix(&format!(". {REST}")).unwrap_or(problem).to_owned()
+}
+
+#[test]
+fn other_files_are_told_apart() {
+    for (bytes, problem) in [
+        (
+            &b"#ROSBAG V1.2\n and more"[..],
+            "version 1.2 of bags is not read. Convert it to version 2.0 with `rosbag reindex`",
+        ),
+        (
+            b"#ROSBAG V2.1\n",
+            "version 2.1 of bags is not read. Convert it to version 2.0 with `rosbag reindex`",
+        ),
+        (
+            b"\x89MCAP0\r\n and more than that",
+            "it is not `#ROSBAG V2.0`. Name a file that ROS 1 recorded",
+        ),
+        (b"#ROSBAG V2.0", "it is not `#ROSBAG V2.0`. Name a file that ROS 1 recorded"),
+        (b"", "it is not `#ROSBAG V2.0`. Name a file that ROS 1 recorded"),
+    ] {
+        let file = file(bytes);
+        let error = said(Ros1Bag::open(file.path()).unwrap_err());
+        assert!(error.ends_with(&format!(": the first line: {problem}")), "{error}");
+    }
+    let missing = Ros1Bag::open(Path::new("no/such.bag")).unwrap_err();
+    assert!(matches!(missing, RecordingError::Read { .. }), "{missing}");
+    Ros1Bag::open(&std::env::temp_dir()).unwrap_err();
+}
+
+#[test]
+fn an_error_of_whoever_takes_the_messages_ends_the_scan() {
+    let inside = true_chunk("lz4", &message(0, [1, 0], b"a"));
+    let records = [camera(), inside, message(0, [2, 0], b"b")];
+    let (_file, bag) = bag(&unindexed(&records));
+    for enough in 1..=2 {
+        let mut count = 0;
+        let result = bag.scan(
+            &mut |_| {
+                count += 1;
+                if count < enough {
+                    return Ok(());
+                }
+                Err(RecordingError::NoSuchFrame { path: "x".into(), index: 0, count: 0 })
+            },
+            &mut |error| panic!("no damage: {error}"),
+        );
+        assert!(matches!(result, Err(RecordingError::NoSuchFrame { .. })));
+        assert_eq!(count, enough);
+    }
+}
+
+#[test]
+fn an_error_about_damage_ends_the_scan() {
+    let records = [camera(), message(9, [1, 0], b"a"), message(0, [2, 0], b"b")];
+    let (_file, bag) = bag(&unindexed(&records));
+    let error = bag.scan(&mut |_| panic!("a message after the damage"), &mut Err).unwrap_err();
+    assert!(said(error).contains("connection 9, which is not told"));
+}
+
+#[test]
+fn encrypted_bags_are_refused() {
+    let header = record(
+        &[("op", &[3]), ("index_pos", &[0; 8]), ("encryptor", b"rosbag/AesCbcEncryptor")],
+        b"",
+    );
+    let (_file, bag) = bag(&[MAGIC, &header].concat());
+    let error = said(bag.scan(&mut |_| Ok(()), &mut |_| Ok(())).unwrap_err());
+    let expected = "the bag: it is encrypted by rosbag/AesCbcEncryptor. Decrypt it first";
+    assert!(error.ends_with(expected), "{error}");
+}
+
+#[test]
+fn an_index_that_is_none_helps_nobody() {
+    let records = [camera(), message(9, [1, 0], b"a"), message(0, [2, 0], b"b")].concat();
+    for index in [1, 13, 60, MAGIC.len() + bag_header(0).len() + 7] {
+        let bytes = [MAGIC.to_vec(), bag_header(index as u64), records.clone()].concat();
+        let (messages, problems) = scan(&bag(&bytes).1);
+        assert_eq!((messages.len(), problems.len()), (1, 1), "{problems:?}");
+    }
+}
+
+#[test]
+fn places_that_no_scan_told_are_errors() {
+    let records = [camera(), true_chunk("lz4", &message(0, [1, 0], b"a"))];
+    let bytes = unindexed(&records);
+    let chunk = unindexed(&[camera()]).len() as u64;
+    let (_file, bag) = bag(&bytes);
+    for place in [
+        Place::Bytes { start: bytes.len() as u64, length: 1 },
+        Place::Bytes { start: 0, length: u32::MAX },
+        Place::Bytes { start: u64::MAX, length: u32::MAX },
+        Place::InChunk { chunk: 0, start: 0, length: 1 },
+        Place::InChunk { chunk: 13, start: 0, length: 1 },
+        Place::InChunk { chunk: u64::MAX, start: 0, length: 1 },
+        Place::InChunk { chunk, start: 0, length: 5000 },
+        Place::InChunk { chunk, start: u32::MAX, length: u32::MAX },
+        Place::Row(1),
+    ] {
+        let error = said(bag.read(place).unwrap_err());
+        assert!(error.contains(": message "), "{error}");
+    }
+}
