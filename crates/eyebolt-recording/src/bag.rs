@@ -7,8 +7,8 @@ mod ros1;
 mod sqlite;
 mod zstd;
 
-pub(crate) use open::{Bag, Locator, looks_like_bag};
 pub use open::BagKind;
+pub(crate) use open::{Bag, Locator, looks_like_bag};
 
 use crate::error::RecordingError;
 

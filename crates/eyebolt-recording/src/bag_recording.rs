@@ -232,7 +232,8 @@ impl BagRecording {
         let needed = [camera_info, description, color, mask];
         for number in [range, joints].into_iter().chain(needed.into_iter().flatten()) {
             let topic = self.topic(number);
-            if let Some((log_time_ns, problem)) = topic.first_problem.as_ref().filter(|_| !partial) {
+            if let Some((log_time_ns, problem)) = topic.first_problem.as_ref().filter(|_| !partial)
+            {
                 let field = format!("{}: {}", topic.name, problem.field);
                 let text = format!("{} (message of {})", problem.problem, seconds(*log_time_ns));
                 let remedy = "Record it again, or give --partial to go without such messages";
@@ -249,7 +250,8 @@ impl BagRecording {
                     seconds(latest),
                     seconds(next)
                 );
-                let remedy = "Two programs publish there, or the clock was set back: record it again";
+                let remedy =
+                    "Two programs publish there, or the clock was set back: record it again";
                 return Err(self.invalid(&topic.name, problem, remedy));
             }
         }
@@ -379,5 +381,10 @@ fn robot(bag: &Bag, scan: &Scan, chosen: Chosen) -> RobotSection {
         _ => None,
     });
     let known = |key: &str| bag.metadata()?.get(key).cloned();
-    RobotSection { urdf: None, description: text, base: known("base"), end_effector: known("end_effector") }
+    RobotSection {
+        urdf: None,
+        description: text,
+        base: known("base"),
+        end_effector: known("end_effector"),
+    }
 }

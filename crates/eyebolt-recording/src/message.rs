@@ -20,8 +20,8 @@ pub(crate) use compressed_depth::CompressedImageMessage;
 pub(crate) use header::Header;
 pub(crate) use image::{ImageMessage, is_depth_encoding};
 pub(crate) use joint_state::JointStateMessage;
-pub(crate) use transforms::{transforms, write_transforms};
 pub use transforms::StaticTransform;
+pub(crate) use transforms::{transforms, write_transforms};
 pub(crate) use wire::{WireProblem, WireReader};
 pub(crate) use writer::WireWriter;
 

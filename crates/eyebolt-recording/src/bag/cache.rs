@@ -2,6 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Larger chunks are not kept from one message to the next, bytes.
+const LARGEST_KEPT: usize = 64 << 20;
+
 /// One decompressed chunk, by its offset in the file.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkCache(Mutex<Option<(u64, Arc<Vec<u8>>)>>);
@@ -20,6 +23,9 @@ impl ChunkCache {
         }
         // Not under the lock: other threads want other chunks.
         let records = Arc::new(unpack()?);
+        if records.len() > LARGEST_KEPT {
+            return Ok(records);
+        }
         *lock() = Some((offset, Arc::clone(&records)));
         Ok(records)
     }

@@ -115,8 +115,8 @@ impl McapFile {
         let mut found = None;
         let mut visit = |head: RecordHead, body: &[u8]| {
             if head.opcode == mcap::records::op::METADATA {
-                let metadata = records::metadata(body)
-                    .map_err(|problem| self.damaged(head.at, problem))?;
+                let metadata =
+                    records::metadata(body).map_err(|problem| self.damaged(head.at, problem))?;
                 found = Some(metadata).filter(|m| m.name == name).or(found.take());
             }
             Ok(())
@@ -171,7 +171,8 @@ impl BagFile for McapFile {
         let mut visit = |head: RecordHead, body: &[u8]| {
             let damaged = |problem: String| self.damaged(head.at, problem);
             if head.opcode != CHUNK {
-                let in_body = |start, length| Place::Bytes { start: head.at + FRAMING + start, length };
+                let in_body =
+                    |start, length| Place::Bytes { start: head.at + FRAMING + start, length };
                 let visited = topics.record(head.opcode, body, &in_body, each, &damaged);
                 return records::or_damage(visited, *damage.borrow_mut());
             }

@@ -114,9 +114,8 @@ struct Information {
 fn listed_files(folder: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     let path = folder.join(METADATA);
     let remedy = "Rebuild it with `ros2 bag reindex`, or give the bag's file itself";
-    let invalid = |field: &str, problem: String| {
-        RecordingError::invalid(&path, field, problem, remedy)
-    };
+    let invalid =
+        |field: &str, problem: String| RecordingError::invalid(&path, field, problem, remedy);
     let text = read_text(&path, "the bag's description")?;
     let metadata: Metadata = serde_saphyr::from_str(&text)
         .map_err(|error| invalid("YAML", error.without_snippet().to_string()))?;
@@ -157,7 +156,12 @@ impl Bag {
             false => Ok(bag),
             true => {
                 let remedy = "Give the folder or file that was recorded";
-                Err(RecordingError::invalid(path, "relative_file_paths", "no file is listed", remedy))
+                Err(RecordingError::invalid(
+                    path,
+                    "relative_file_paths",
+                    "no file is listed",
+                    remedy,
+                ))
             }
         }
     }
@@ -214,8 +218,9 @@ impl Bag {
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         for (number, file) in (0..).zip(&self.files) {
-            let mut with_file =
-                |message: &Message<'_>| each(Locator { file: number, place: message.place }, message);
+            let mut with_file = |message: &Message<'_>| {
+                each(Locator { file: number, place: message.place }, message)
+            };
             file.scan(&mut with_file, damage)?;
         }
         Ok(())

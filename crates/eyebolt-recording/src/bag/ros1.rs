@@ -15,6 +15,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 
+use super::cache::ChunkCache;
 use super::{BagFile, LARGEST_CHUNK, Message, Place};
 use crate::error::RecordingError;
 use chunk::Chunk;
@@ -23,26 +24,15 @@ use header::{Header, Op};
 use scan::Scan;
 use source::Source;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
-
-/// Larger chunks are not kept from one message to the next, bytes.
-const LARGEST_KEPT: usize = 64 << 20;
 
 /// A file of a ROS 1 recorder.
 #[derive(Debug)]
 pub(crate) struct Ros1Bag {
     path: PathBuf,
-    kept: Mutex<Option<Kept>>,
-}
-
-/// The chunk that was decompressed last, as messages are mostly asked for in order.
-#[derive(Debug)]
-struct Kept {
-    /// Where its record begins in the file.
-    chunk: u64,
-    bytes: Arc<Vec<u8>>,
+    cache: ChunkCache,
 }
 
 impl Ros1Bag {
@@ -53,7 +43,7 @@ impl Ros1Bag {
         let length = source.end().min(MAGIC.len() as u64);
         source.fill(&mut magic, length)?;
         if magic == MAGIC {
-            return Ok(Self { path: path.to_path_buf(), kept: Mutex::new(None) });
+            return Ok(Self { path: path.to_path_buf(), cache: ChunkCache::default() });
         }
         let invalid = |problem: &str, remedy| {
             Err(RecordingError::invalid(path, "the first line", problem, remedy))
@@ -82,7 +72,7 @@ impl Ros1Bag {
     fn read_from_chunk(&self, chunk: u64, start: u32, length: u32) -> Result<Vec<u8>, Fault> {
         let start = usize::try_from(start).unwrap_or(usize::MAX);
         let end = start.saturating_add(usize::try_from(length).unwrap_or(usize::MAX));
-        match Arc::try_unwrap(self.contents(chunk)?) {
+        match Arc::try_unwrap(self.cache.get(chunk, || self.decompress(chunk))?) {
             Err(kept) => Ok(kept.get(start..end).ok_or("it is not in its chunk")?.to_vec()),
             // Nobody else wants the chunk, which is large: its memory becomes the message's.
             Ok(mut bytes) if end <= bytes.len() => {
@@ -95,20 +85,7 @@ impl Ros1Bag {
         }
     }
 
-    /// The chunk whose record begins at byte `chunk`, decompressed.
-    fn contents(&self, chunk: u64) -> Result<Arc<Vec<u8>>, Fault> {
-        let kept = || self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(kept) = kept().as_ref().filter(|kept| kept.chunk == chunk) {
-            return Ok(Arc::clone(&kept.bytes));
-        }
-        // Not under the lock, so that threads that want different chunks do not wait.
-        let bytes = Arc::new(self.decompress(chunk)?);
-        if bytes.len() <= LARGEST_KEPT {
-            *kept() = Some(Kept { chunk, bytes: Arc::clone(&bytes) });
-        }
-        Ok(bytes)
-    }
-
+    /// The contents of the chunk whose record begins at byte `chunk`.
     fn decompress(&self, chunk: u64) -> Result<Vec<u8>, Fault> {
         let mut source = Source::open(&self.path)?;
         source.seek(chunk)?;

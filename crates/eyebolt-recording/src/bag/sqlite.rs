@@ -51,8 +51,7 @@ impl SqliteFile {
         let topic = |row: &Row<'_>| {
             let (id, name, kind, format): (i64, String, String, String) =
                 (row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?);
-            let encoding =
-                if format == "cdr" { Encoding::Cdr } else { Encoding::Other(format) };
+            let encoding = if format == "cdr" { Encoding::Cdr } else { Encoding::Other(format) };
             Ok((id, Topic { name, message_type: ros_type(&kind), encoding }))
         };
         statement.query_map([MOST_TOPICS as i64], topic)?.collect()
@@ -99,7 +98,8 @@ impl SqliteFile {
     }
 
     fn bad_row(&self, row: i64, problem: String) -> RecordingError {
-        let remedy = "The message is damaged: copy the bag again, or give --partial to go without it";
+        let remedy =
+            "The message is damaged: copy the bag again, or give --partial to go without it";
         RecordingError::invalid(&self.path, format!("message {row}"), problem, remedy)
     }
 

@@ -25,7 +25,9 @@ impl Unzipper {
         let size = match size.or_else(|| content_size(data)) {
             Some(size) if size > LARGEST_CHUNK => {
                 let limit = LARGEST_CHUNK >> 20;
-                return Err(format!("it claims to decompress to {size} bytes, more than {limit} MiB"));
+                return Err(format!(
+                    "it claims to decompress to {size} bytes, more than {limit} MiB"
+                ));
             }
             Some(size) => size as usize,
             // Streams do not know their length beforehand.

@@ -38,10 +38,12 @@ impl Chosen {
             Some(_) => None,
             None => choice.camera_info(options.camera_info_topic.as_deref(), range)?,
         };
-        let color = choice.beside(range, "--color-topic", options.color_topic.as_deref(), is_color)?;
-        let mask = choice.beside(range, "--mask-topic", options.mask_topic.as_deref(), |topic| {
-            topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
-        })?;
+        let color =
+            choice.beside(range, "--color-topic", options.color_topic.as_deref(), is_color)?;
+        let mask =
+            choice.beside(range, "--mask-topic", options.mask_topic.as_deref(), |topic| {
+                topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
+            })?;
         let description = choice.one(
             "--description-topic",
             "a robot description (std_msgs/String)",
@@ -96,9 +98,8 @@ impl Choice<'_> {
         let what = "depth (Image in 16UC1 or 32FC1, compressedDepth, or PointCloud2)";
         // A camera's depth image is often recorded beside the cloud that was made of it.
         let best = self.scan.topics.iter().filter_map(rank).min();
-        let fits = |topic: &TopicScan| {
-            rank(topic).is_some() && (wanted.is_some() || rank(topic) == best)
-        };
+        let fits =
+            |topic: &TopicScan| rank(topic).is_some() && (wanted.is_some() || rank(topic) == best);
         let found = self.one("--depth-topic", what, wanted, &fits)?;
         found.ok_or_else(|| self.none("--depth-topic", what))
     }
@@ -187,10 +188,8 @@ impl Choice<'_> {
         };
         let found = self.one(flag, what, None, &same)?;
         // Clouds tell their camera themselves, if they have one.
-        let cloud = matches!(
-            &depth.content,
-            Content::Pictures { kind: PictureKind::Cloud { .. }, .. }
-        );
+        let cloud =
+            matches!(&depth.content, Content::Pictures { kind: PictureKind::Cloud { .. }, .. });
         match found {
             None if !cloud => {
                 let problem = format!("no topic has the intrinsics of {}", depth.name);

@@ -62,9 +62,8 @@ impl BagRecording {
         let mut reader = WireReader::new(&topic.encoding, &bytes).map_err(wrong)?;
         let (size, depth_m, in_millimetres) = match topic.message_type.as_str() {
             types::CLOUD => {
-                let points = CloudMessage::read(&mut reader).and_then(|cloud| {
-                    Ok((cloud.points()?, (cloud.width, cloud.height)))
-                });
+                let points = CloudMessage::read(&mut reader)
+                    .and_then(|cloud| Ok((cloud.points()?, (cloud.width, cloud.height))));
                 let (points, size) = points.map_err(wrong)?;
                 return self.cloud(entry, points, size).map(Range::Cloud);
             }
@@ -105,7 +104,8 @@ impl BagRecording {
             return Err(self.invalid(&field, problem, remedy));
         }
         check_unit(&self.path, &field, unit, depth_m.iter().copied()).map_err(|error| {
-            let remedy = "Correct the driver: 16UC1 is in millimetres and 32FC1 in metres (REP 118)";
+            let remedy =
+                "Correct the driver: 16UC1 is in millimetres and 32FC1 in metres (REP 118)";
             self.invalid(&field, error.problem(), remedy)
         })
     }

@@ -143,11 +143,7 @@ fn nanoseconds(seconds: f64) -> i64 {
 }
 
 /// Positions of all joints at a time, and how far they move around it.
-fn at(
-    tracks: &[&Track],
-    stamp_ns: i64,
-    half_ns: i64,
-) -> Result<(Vec<f64>, f64), DropReason> {
+fn at(tracks: &[&Track], stamp_ns: i64, half_ns: i64) -> Result<(Vec<f64>, f64), DropReason> {
     let mut positions = Vec::new();
     let mut motion = 0.0_f64;
     for track in tracks {
@@ -159,7 +155,8 @@ fn at(
 
 fn positions_at(track: &Track, stamp_ns: i64) -> Result<Vec<f64>, DropReason> {
     // What was told once stays so: drivers of grippers do that.
-    let nearest = track.nearest(stamp_ns).ok_or(DropReason::StaleJoints { age_s: f64::INFINITY })?;
+    let nearest =
+        track.nearest(stamp_ns).ok_or(DropReason::StaleJoints { age_s: f64::INFINITY })?;
     if track.count() == 1 {
         return Ok(nearest.1.to_vec());
     }

@@ -43,11 +43,18 @@ pub(super) struct TopicScan {
 #[derive(Debug)]
 pub(super) enum Content {
     /// Pictures, depth or not.
-    Pictures { kind: PictureKind, frames: Vec<FrameEntry> },
+    Pictures {
+        kind: PictureKind,
+        frames: Vec<FrameEntry>,
+    },
     /// Positions of joints; one track for each set of names.
     Joints(BTreeMap<Vec<String>, Track>),
     /// The first intrinsics, whether later ones differ, and where the first lie.
-    CameraInfo { first: Option<Intrinsics>, changed_ns: Option<i64>, locator: Option<Locator> },
+    CameraInfo {
+        first: Option<Intrinsics>,
+        changed_ns: Option<i64>,
+        locator: Option<Locator>,
+    },
     /// The last text.
     Text(String),
     Transforms,
@@ -57,9 +64,14 @@ pub(super) enum Content {
 /// How pictures are stored, told by the first one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum PictureKind {
-    Image { encoding: String, size: (u32, u32) },
+    Image {
+        encoding: String,
+        size: (u32, u32),
+    },
     CompressedDepth,
-    Cloud { size: (u32, u32) },
+    Cloud {
+        size: (u32, u32),
+    },
     /// Compressed, and no depth.
     CompressedColor,
     Unknown,

@@ -62,7 +62,8 @@ impl Track {
 
     /// First and last stamp, nanoseconds.
     pub(super) fn span_ns(&self) -> Option<(i64, i64)> {
-        let last = self.last.as_ref().map(|(stamp, ..)| *stamp).or(self.stamps_ns.last().copied())?;
+        let last =
+            self.last.as_ref().map(|(stamp, ..)| *stamp).or(self.stamps_ns.last().copied())?;
         Some((self.stamps_ns.first().copied()?, last))
     }
 

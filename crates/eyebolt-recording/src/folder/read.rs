@@ -33,7 +33,10 @@ impl Folder {
     /// # Errors
     ///
     /// No such frame, or positions that cannot be read.
-    pub fn read_joints(&self, index: usize) -> Result<eyebolt_robot::JointPositions, RecordingError> {
+    pub fn read_joints(
+        &self,
+        index: usize,
+    ) -> Result<eyebolt_robot::JointPositions, RecordingError> {
         let name = self.name(index)?;
         read_joints(&self.manifest.joints.path(name), &self.manifest.joint_names)
     }

@@ -103,7 +103,8 @@ impl<'a> CloudMessage<'a> {
         let row = row.max(used);
         let least = row.saturating_mul(height - 1).saturating_add(used);
         if self.data.len() < least {
-            let problem = format!("{} bytes do not hold {width} x {height} points", self.data.len());
+            let problem =
+                format!("{} bytes do not hold {width} x {height} points", self.data.len());
             return Err(WireProblem::new("data", problem));
         }
         let rows = self.data.chunks(row).take(height);

@@ -133,10 +133,8 @@ impl<'a> ImageMessage<'a> {
         // The last row may lack its padding.
         let least = step.saturating_mul(height - 1).saturating_add(row);
         if self.data.len() < least {
-            let problem = format!(
-                "{} bytes do not hold {height} rows of {step} bytes",
-                self.data.len()
-            );
+            let problem =
+                format!("{} bytes do not hold {height} rows of {step} bytes", self.data.len());
             return Err(WireProblem::new("data", problem));
         }
         Ok(self.data.chunks(step).take(height).filter_map(move |bytes| bytes.get(..row)))

@@ -32,7 +32,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<u16>), WireProblem> 
         let filled = nibbles.number().ok_or_else(short)? as usize;
         let room = count - values.len();
         if zeros.saturating_add(filled) > room || zeros + filled == 0 {
-            return Err(WireProblem::new("data", "the runs of the RVL picture do not fit its size"));
+            return Err(WireProblem::new(
+                "data",
+                "the runs of the RVL picture do not fit its size",
+            ));
         }
         values.resize(values.len() + zeros, 0);
         for _ in 0..filled {

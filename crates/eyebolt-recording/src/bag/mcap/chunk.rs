@@ -40,7 +40,9 @@ impl Unpacker {
         self.last = match header.compression.as_str() {
             "" => Source::Body(HEADER..HEADER + data.len()),
             "zstd" => {
-                self.unzipper.unzip(&data, Some(size)).map_err(|problem| format!("chunk: {problem}"))?;
+                self.unzipper
+                    .unzip(&data, Some(size))
+                    .map_err(|problem| format!("chunk: {problem}"))?;
                 Source::Zstd
             }
             "lz4" => {
@@ -88,9 +90,7 @@ fn check(records: &[u8], size: u64, crc: u32) -> Result<(), String> {
 }
 
 /// Opcode, first byte of the body, and body of every record; ends with the first that is cut short.
-pub(super) fn records(
-    bytes: &[u8],
-) -> impl Iterator<Item = Result<(u8, u32, &[u8]), String>> {
+pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = Result<(u8, u32, &[u8]), String>> {
     let mut at = 0_usize;
     let mut broken = false;
     std::iter::from_fn(move || {

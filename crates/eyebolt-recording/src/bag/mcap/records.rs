@@ -76,7 +76,8 @@ impl Topics {
             Record::Channel(channel) => self.channel(channel),
             Record::Message { header, data } => {
                 let index = self.channels.get(&header.channel_id).copied();
-                let Some((index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
+                let Some((index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?)))
+                else {
                     let id = header.channel_id;
                     return Err(problem(format!("a message of channel {id}, which is not known")));
                 };
