@@ -5,6 +5,7 @@
 
 mod choose;
 mod clouds;
+mod copying;
 mod frames;
 mod pair;
 mod scan;
@@ -19,6 +20,7 @@ use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, StaticTransform, WireReader};
+use crate::write::check_names;
 use choose::Chosen;
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_robot::JointPositions;
@@ -66,6 +68,9 @@ pub struct BagRecording {
     names: Vec<String>,
     clock_offset: Option<ClockOffset>,
     cloud_frame: Option<CloudFrame>,
+    partial: bool,
+    /// The intrinsics came from a file.
+    camera_given: bool,
 }
 
 /// A topic of a bag, for people.
@@ -110,7 +115,9 @@ impl BagRecording {
             paired: Paired::default(),
             names: Vec::new(),
             clock_offset: None,
-            cloud_frame: options.cloud_frame,
+            cloud_frame: options.cloud_frame.or_else(|| known_cloud_frame(&bag)),
+            partial: options.partial,
+            camera_given: options.camera_info.is_some(),
             bag,
             scan,
             chosen,
@@ -304,10 +311,27 @@ impl BagRecording {
                           as rest";
             return Err(self.invalid(&range.name, problem, remedy));
         }
-        self.names = paired.kept.iter().map(|kept| kept.index.to_string()).collect();
+        let name = match self.known_names()?.filter(|names| names.len() == frames.len()) {
+            Some(names) => {
+                Box::new(move |index: usize| names[index].clone()) as Box<dyn Fn(_) -> _>
+            }
+            None => Box::new(|index: usize| index.to_string()),
+        };
+        self.names = paired.kept.iter().map(|kept| name(kept.index)).collect();
         self.clock_offset = offset;
         self.paired = paired;
         Ok(())
+    }
+
+    /// Names of all frames, where the bag was written from a folder.
+    fn known_names(&self) -> Result<Option<Vec<String>>, RecordingError> {
+        let text = self.bag.metadata().and_then(|known| known.get("frame_names"));
+        let Some(text) = text else { return Ok(None) };
+        let names: Vec<String> = serde_json::from_str(text).map_err(|error| {
+            self.invalid("metadata: frame_names", error.to_string(), "Write the file again")
+        })?;
+        check_names(&self.path, &names)?;
+        Ok(Some(names))
     }
 
     fn summary(&self, number: usize) -> Option<TopicSummary> {
@@ -371,6 +395,15 @@ fn problems(topic: &TopicScan) -> Vec<String> {
         problems.push(format!("{} time stamps run backward", topic.stamps.backward));
     }
     problems
+}
+
+/// The frame of clouds that a flag once said, where eyebolt wrote the bag.
+fn known_cloud_frame(bag: &Bag) -> Option<CloudFrame> {
+    match bag.metadata()?.get("cloud_frame")?.as_str() {
+        "optical" => Some(CloudFrame::Optical),
+        "body" => Some(CloudFrame::Body),
+        _ => None,
+    }
 }
 
 /// What the bag says of the robot: its description, and the links where eyebolt wrote the bag.

@@ -6,7 +6,7 @@
 
 use crate::error::RecordingError;
 use crate::file::read_text;
-use crate::message::CameraInfoMessage;
+use crate::message::{CameraInfoMessage, Header};
 use eyebolt_geometry::{Distortion, PinholeCamera};
 use serde::Deserialize;
 use std::path::Path;
@@ -108,6 +108,28 @@ impl CameraInfo {
         let camera = camera(path, &raw)?;
         let frame_id = Some(message.header.frame_id.to_owned()).filter(|id| !id.is_empty());
         Ok(Self { camera, frame_id })
+    }
+}
+
+/// What a driver of `camera` would say.
+pub(crate) fn camera_info_message<'a>(
+    camera: &PinholeCamera,
+    header: Header<'a>,
+) -> CameraInfoMessage<'a> {
+    let [fx, fy, cx, cy] = [camera.fx(), camera.fy(), camera.cx(), camera.cy()];
+    let (distortion_model, count) = match camera.distortion() {
+        Distortion::None | Distortion::PlumbBob { .. } => ("plumb_bob", 5),
+        Distortion::RationalPolynomial { .. } => ("rational_polynomial", 8),
+    };
+    CameraInfoMessage {
+        header,
+        height: camera.height(),
+        width: camera.width(),
+        distortion_model,
+        d: camera.distortion().coefficients().into_iter().take(count).collect(),
+        k: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
+        r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        p: [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
     }
 }
 

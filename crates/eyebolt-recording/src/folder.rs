@@ -4,7 +4,7 @@ mod read;
 
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
-use crate::manifest::{Manifest, RobotSection};
+use crate::manifest::{Manifest, RangeKind, RobotSection, Unit};
 use crate::pattern::Pattern;
 use eyebolt_geometry::PinholeCamera;
 use std::path::{Path, PathBuf};
@@ -75,6 +75,12 @@ impl Folder {
     /// Whether frames come with masks of the arm.
     pub fn has_masks(&self) -> bool {
         self.manifest.mask.is_some()
+    }
+
+    /// Whether depth is stored in whole millimetres.
+    pub(crate) fn in_millimetres(&self) -> bool {
+        let depth = self.manifest.kind == RangeKind::Depth;
+        depth && self.manifest.unit == Unit::Millimetres && self.manifest.range.extension() == "png"
     }
 
     /// File of the colour picture of frame `index`, if there are pictures and that frame.

@@ -44,6 +44,7 @@ mod pattern;
 mod png_image;
 mod recording;
 mod unit_check;
+mod write;
 
 /// Name of the metadata record with what eyebolt knows of a recording that it wrote.
 pub(crate) const METADATA_NAME: &str = "eyebolt";
@@ -60,3 +61,7 @@ pub use frame::{Frame, Range};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
 pub use recording::Recording;
+pub use write::{
+    McapWriter, WriteError, WriteProgress, WriteRobot, write_folder, write_mcap,
+    write_static_transforms,
+};

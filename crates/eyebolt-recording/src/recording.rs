@@ -112,6 +112,14 @@ impl Recording {
         }
     }
 
+    /// Whether depth is stored in whole millimetres.
+    pub fn in_millimetres(&self) -> bool {
+        match self {
+            Self::Folder(folder) => folder.in_millimetres(),
+            Self::Bag(bag) => bag.in_millimetres(),
+        }
+    }
+
     /// The bag, if it is one.
     pub fn bag(&self) -> Option<&BagRecording> {
         match self {

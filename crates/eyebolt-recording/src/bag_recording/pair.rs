@@ -148,7 +148,8 @@ fn at(tracks: &[&Track], stamp_ns: i64, half_ns: i64) -> Result<(Vec<f64>, f64),
     let mut motion = 0.0_f64;
     for track in tracks {
         positions.extend(positions_at(track, stamp_ns)?);
-        motion = motion.max(track.motion(stamp_ns - half_ns, stamp_ns.saturating_add(half_ns)));
+        let (from_ns, to_ns) = (stamp_ns.saturating_sub(half_ns), stamp_ns.saturating_add(half_ns));
+        motion = motion.max(track.motion(from_ns, to_ns, DENSE_NS));
     }
     Ok((positions, motion))
 }

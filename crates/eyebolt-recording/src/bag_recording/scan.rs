@@ -93,7 +93,6 @@ impl PictureKind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameEntry {
     pub(super) stamp_ns: i64,
-    pub(super) log_time_ns: i64,
     pub(super) locator: Locator,
 }
 
@@ -259,7 +258,7 @@ impl TopicScan {
                 }
                 let stamp_ns = self.stamps.add(header.stamp_ns, log_time_ns);
                 note_frame(&mut self.frame_id, &header);
-                frames.push(FrameEntry { stamp_ns, log_time_ns, locator });
+                frames.push(FrameEntry { stamp_ns, locator });
             }
             Content::Joints(tracks) => {
                 let message = JointStateMessage::read(reader)?;

@@ -55,11 +55,6 @@ impl Track {
         self.count
     }
 
-    /// Number of samples that were not later than the one before, and so were not used.
-    pub(super) fn backward(&self) -> u64 {
-        self.backward
-    }
-
     /// First and last stamp, nanoseconds.
     pub(super) fn span_ns(&self) -> Option<(i64, i64)> {
         let last =
@@ -176,7 +171,9 @@ impl Track {
     }
 
     /// How far the joint that moves most moves between two times, radians or metres.
-    pub(super) fn motion(&self, from_ns: i64, to_ns: i64) -> f64 {
+    ///
+    /// What happens in gaps longer than `dense_ns` nobody knows: there, only samples count.
+    pub(super) fn motion(&self, from_ns: i64, to_ns: i64, dense_ns: i64) -> f64 {
         let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); self.names.len()];
         let mut see = |positions: &[f64]| {
             for (range, position) in ranges.iter_mut().zip(positions) {
@@ -185,7 +182,7 @@ impl Track {
         };
         let Some((first, last)) = self.span_ns() else { return 0.0 };
         for stamp in [from_ns, to_ns].map(|stamp| stamp.clamp(first, last)) {
-            if let Some(piece) = self.piece(stamp) {
+            if let Some(piece) = self.piece(stamp).filter(|piece| piece.gap_ns <= dense_ns) {
                 see(&piece.at(stamp));
             }
         }

@@ -1,0 +1,81 @@
+//! What a writer of recordings asks of a bag.
+
+use super::BagRecording;
+use super::choose::Chosen;
+use super::scan::{Content, PictureKind};
+use crate::bag::{Message, Topic};
+use crate::error::RecordingError;
+use crate::manifest::CloudFrame;
+use eyebolt_geometry::PinholeCamera;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+impl BagRecording {
+    /// Where the bag is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether damage is passed over.
+    pub(crate) fn is_partial(&self) -> bool {
+        self.partial
+    }
+
+    /// Number of messages of all topics.
+    pub(crate) fn message_count(&self) -> usize {
+        let count: u64 = self.scan.topics.iter().map(|topic| topic.count).sum();
+        usize::try_from(count).unwrap_or(usize::MAX)
+    }
+
+    /// Hands every message of the bag to `each`, once more.
+    pub(crate) fn scan_again(
+        &self,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        let mut damage = |error| if self.partial { Ok(()) } else { Err(error) };
+        self.bag.scan(&mut |_, message| each(message), &mut damage)
+    }
+
+    /// Whether the messages of `topic` are part of the recording.
+    pub(crate) fn is_chosen(&self, topic: &Topic) -> bool {
+        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
+        let others = [camera_info, description, color, mask];
+        let mut all = [range, joints].into_iter().chain(others.into_iter().flatten());
+        all.any(|number| {
+            let chosen = self.topic(number);
+            chosen.name == topic.name && chosen.message_type == topic.message_type
+        })
+    }
+
+    /// Whether the bag says what the robot is.
+    pub(crate) fn has_description(&self) -> bool {
+        self.chosen.description.is_some()
+    }
+
+    /// The camera, if a file told it, and the topic where it would be looked for.
+    pub(crate) fn given_camera(&self) -> Option<(&PinholeCamera, String)> {
+        let camera = self.camera().filter(|_| self.camera_given)?;
+        let above = self.range_topic().name.rsplit_once('/').map_or("", |(above, _)| above);
+        Some((camera, format!("{above}/camera_info")))
+    }
+
+    /// Whether depth is stored in whole millimetres.
+    pub(crate) fn in_millimetres(&self) -> bool {
+        match &self.range_topic().content {
+            Content::Pictures { kind: PictureKind::Image { encoding, .. }, .. } => {
+                encoding != "32FC1"
+            }
+            _ => false,
+        }
+    }
+
+    /// What is known of the recording that no message says.
+    pub(crate) fn metadata(&self) -> BTreeMap<String, String> {
+        let mut known = self.bag.metadata().cloned().unwrap_or_default();
+        if let Some(frame) = self.cloud_frame {
+            let name = if frame == CloudFrame::Optical { "optical" } else { "body" };
+            known.insert("cloud_frame".to_owned(), name.to_owned());
+        }
+        known
+    }
+}

@@ -1,0 +1,228 @@
+//! A folder of files with a `recording.toml`.
+
+use super::npy::npy;
+use super::{WriteError, WriteProgress, WriteRobot, png, tell};
+use crate::error::RecordingError;
+use crate::folder::MANIFEST;
+use crate::frame::{Frame, Range};
+use crate::recording::Recording;
+use eyebolt_geometry::{Distortion, PinholeCamera};
+use eyebolt_robot::JointPositions;
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+
+const CAMERA_INFO: &str = "camera_info.yaml";
+const JOINTS: &str = "joints.csv";
+const URDF: &str = "robot.urdf";
+
+/// Writes the frames of `recording` that take part to the folder `folder`, which must exist:
+/// depth as PNG (whole millimetres) or NPY, clouds as NPY, the positions of the joints as one CSV.
+///
+/// # Errors
+///
+/// What cannot be read, or a file that cannot be written.
+pub fn write_folder(
+    recording: &Recording,
+    robot: &WriteRobot,
+    folder: &Path,
+    progress: &mut WriteProgress<'_>,
+) -> Result<(), WriteError> {
+    let names = recording.frame_names();
+    let mut output = Output { folder, in_millimetres: recording.in_millimetres(), joints: None };
+    let mut found = Found::default();
+    for (index, name) in names.iter().enumerate() {
+        tell(progress, index, names.len())?;
+        let frame = recording.read_frame(index)?;
+        output.range(&frame)?;
+        output.joint_row(&frame)?;
+        if let Some(mask) = &frame.mask {
+            let png = png::mask(mask.width(), mask.height(), mask.as_slice());
+            output.picture(&format!("mask_{name}.png"), png)?;
+        }
+        let color = recording.read_color(index)?;
+        if let Some(color) = &color {
+            let png = png::rgb(color.width, color.height, &color.rgb);
+            output.picture(&format!("color_{name}.png"), png)?;
+        }
+        found.add(&frame, color.is_some());
+    }
+    output.finish_joints()?;
+    if let Some(camera) = recording.camera() {
+        let text = camera_info(camera, recording.camera_frame_id());
+        output.file(CAMERA_INFO, text.as_bytes())?;
+    }
+    if let Some(urdf) = &robot.urdf {
+        output.file(URDF, urdf.as_bytes())?;
+    }
+    // Last: a folder without it is no recording.
+    output.file(MANIFEST, manifest(recording, robot, found, names.len()).as_bytes())?;
+    tell(progress, names.len(), names.len())
+}
+
+/// What frames have; masks and pictures count only if every frame has one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Found {
+    clouds: bool,
+    masks: usize,
+    colors: usize,
+}
+
+impl Found {
+    fn add(&mut self, frame: &Frame, color: bool) {
+        self.clouds = matches!(frame.range, Range::Cloud(_));
+        self.masks += usize::from(frame.mask.is_some());
+        self.colors += usize::from(color);
+    }
+}
+
+struct Output<'a> {
+    folder: &'a Path,
+    in_millimetres: bool,
+    /// Names of the joints and the table so far.
+    joints: Option<(Vec<String>, csv::Writer<Vec<u8>>)>,
+}
+
+impl Output<'_> {
+    fn failed(&self, name: &str, cause: io::Error) -> WriteError {
+        WriteError::File { path: self.folder.join(name), cause }
+    }
+
+    fn file(&self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
+        std::fs::write(self.folder.join(name), bytes).map_err(|cause| self.failed(name, cause))
+    }
+
+    fn picture(
+        &self,
+        name: &str,
+        png: Result<Vec<u8>, ::png::EncodingError>,
+    ) -> Result<(), WriteError> {
+        let bytes = png.map_err(|error| self.failed(name, io::Error::other(error)))?;
+        self.file(name, &bytes)
+    }
+
+    fn range(&self, frame: &Frame) -> Result<(), WriteError> {
+        let name = &frame.name;
+        match &frame.range {
+            Range::Depth(depth) if self.in_millimetres => {
+                let png = png::depth(depth.width(), depth.height(), depth.depth_m());
+                self.picture(&format!("depth_{name}.png"), png)
+            }
+            Range::Depth(depth) => {
+                let shape = [depth.height() as usize, depth.width() as usize];
+                let bytes = npy(&shape, depth.depth_m().iter().copied());
+                self.file(&format!("depth_{name}.npy"), &bytes)
+            }
+            Range::Cloud(cloud) => {
+                let grid = cloud.grid().map(|(w, h)| vec![h as usize, w as usize, 3]);
+                let shape = grid.unwrap_or_else(|| vec![cloud.points().len(), 3]);
+                let values = cloud.points().iter().flat_map(|p| [p.x, p.y, p.z]);
+                self.file(&format!("cloud_{name}.npy"), &npy(&shape, values))
+            }
+        }
+    }
+
+    fn joint_row(&mut self, frame: &Frame) -> Result<(), WriteError> {
+        if self.joints.is_none() {
+            let names: Vec<String> = frame.joints.iter().map(|(name, _)| name.to_owned()).collect();
+            let mut table = csv::Writer::from_writer(Vec::new());
+            let header = std::iter::once("frame").chain(names.iter().map(String::as_str));
+            table.write_record(header).map_err(|error| self.failed(JOINTS, error.into()))?;
+            self.joints = Some((names, table));
+        }
+        let Some((names, table)) = &mut self.joints else { return Ok(()) };
+        let row = row(names, &frame.joints).and_then(|positions| {
+            table
+                .write_record(std::iter::once(frame.name.clone()).chain(positions))
+                .map_err(io::Error::from)
+        });
+        row.map_err(|error| self.failed(JOINTS, error))
+    }
+
+    fn finish_joints(&mut self) -> Result<(), WriteError> {
+        let Some((_, table)) = self.joints.take() else { return Ok(()) };
+        let bytes = table.into_inner();
+        let bytes =
+            bytes.map_err(|error| self.failed(JOINTS, io::Error::other(error.to_string())))?;
+        self.file(JOINTS, &bytes)
+    }
+}
+
+/// Positions in the order of `names`, which are those of the first frame.
+fn row(names: &[String], joints: &JointPositions) -> io::Result<Vec<String>> {
+    let position = |name: &String| {
+        let missing = || io::Error::other(format!("a frame has no position of {name}"));
+        // The shortest text that is read as the same number.
+        joints.get(name).map(|position| format!("{position:?}")).ok_or_else(missing)
+    };
+    names.iter().map(position).collect()
+}
+
+fn camera_info(camera: &PinholeCamera, frame_id: Option<&str>) -> String {
+    let model = match camera.distortion() {
+        Distortion::None | Distortion::PlumbBob { .. } => "plumb_bob",
+        Distortion::RationalPolynomial { .. } => "rational_polynomial",
+    };
+    let count = if model == "plumb_bob" { 5 } else { 8 };
+    let d: Vec<f64> = camera.distortion().coefficients().into_iter().take(count).collect();
+    let mut text = String::new();
+    if let Some(frame_id) = frame_id {
+        // JSON texts are YAML texts.
+        let quoted = serde_json::Value::from(frame_id).to_string();
+        let _ = writeln!(text, "header:\n  frame_id: {quoted}");
+    }
+    let (width, height) = (camera.width(), camera.height());
+    let [fx, fy, cx, cy] = [camera.fx(), camera.fy(), camera.cx(), camera.cy()];
+    let _ = writeln!(text, "height: {height}\nwidth: {width}\ndistortion_model: {model}");
+    let _ = writeln!(text, "d: {d:?}");
+    let _ = writeln!(text, "k: [{fx:?}, 0.0, {cx:?}, 0.0, {fy:?}, {cy:?}, 0.0, 0.0, 1.0]");
+    text
+}
+
+fn manifest(recording: &Recording, robot: &WriteRobot, found: Found, frames: usize) -> String {
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let mut text = String::new();
+    let mut line = |line: String| {
+        let _ = writeln!(text, "{line}");
+    };
+    if recording.camera().is_some() {
+        line(format!("[camera]\ninfo = {}\n", quoted(CAMERA_INFO)));
+    }
+    line("[frames]".to_owned());
+    match (found.clouds, recording.in_millimetres()) {
+        (true, _) => line("cloud = \"cloud_{}.npy\"\ncloud_frame = \"optical\"".to_owned()),
+        (false, true) => line("depth = \"depth_{}.png\"".to_owned()),
+        (false, false) => line("depth = \"depth_{}.npy\"".to_owned()),
+    }
+    let unit = if recording.in_millimetres() && !found.clouds { "mm" } else { "m" };
+    line(format!("depth_unit = {}", quoted(unit)));
+    line(format!("joints = {}", quoted(JOINTS)));
+    if found.masks == frames {
+        line("mask = \"mask_{}.png\"".to_owned());
+    }
+    if found.colors == frames {
+        line("color = \"color_{}.png\"".to_owned());
+    }
+    let known = recording.robot();
+    let base = robot.base.as_ref().or(known.base.as_ref());
+    let hand = robot.end_effector.as_ref().or(known.end_effector.as_ref());
+    line("\n[robot]".to_owned());
+    if robot.urdf.is_some() {
+        line(format!("urdf = {}", quoted(URDF)));
+    }
+    for (key, link) in [("base", base), ("end_effector", hand)] {
+        if let Some(link) = link {
+            line(format!("{key} = {}", quoted(link)));
+        }
+    }
+    text
+}
+
+/// The files of a folder are named after its frames, so these must be names of files.
+pub(crate) fn check_names(path: &Path, names: &[String]) -> Result<(), RecordingError> {
+    let bad = names.iter().find(|name| name.contains(['/', '\\', '\0']) || name.is_empty());
+    bad.map_or(Ok(()), |name| {
+        let problem = format!("{name:?} cannot be part of the name of a file");
+        Err(RecordingError::invalid(path, "metadata: frame_names", problem, "Write it again"))
+    })
+}
