@@ -7,7 +7,7 @@
 //! info = "camera_info.yaml"          # of the depth, as ROS prints it
 //!
 //! [frames]                           # {} is the frame's number or name
-//! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy"
+//! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy", PCD or PLY
 //! depth_unit = "m"                   # "m" or "mm"
 //! # cloud_frame = "optical"          # clouds only; or "body" (x forward, y left, z up)
 //! color = "color_{}.png"             # optional

@@ -72,7 +72,8 @@ impl Folder {
         frame: CloudFrame,
         camera: Option<Expected<'_>>,
     ) -> Result<Cloud, RecordingError> {
-        let cloud = read_cloud(path, self.manifest.unit, frame)?;
+        let extension = self.manifest.range.extension();
+        let cloud = read_cloud(path, extension, self.manifest.unit, frame)?;
         match (cloud.grid(), camera) {
             (Some((w, h)), Some((width, height, what))) if (w, h) != (width, height) => {
                 let problem =
@@ -96,7 +97,8 @@ impl Folder {
                     "the cloud {} is a list of points, and no pixel of a mask belongs to one",
                     range_path.display()
                 ),
-                "Store the cloud as rows x columns x 3, or remove frames.mask",
+                "Store the cloud with rows and columns (an NPY of rows x columns x 3, a PCD with \
+                 HEIGHT), or remove frames.mask",
             ));
         };
         read_mask(&path, (width, height, &range_path.display().to_string())).map(Some)

@@ -33,7 +33,7 @@ impl Source<'_> {
 
     pub(super) fn range(&self, frames: &RawFrames) -> Result<(RangeKind, Pattern), RecordingError> {
         let depth = self.pattern("depth", frames.depth.as_deref(), &["npy", "png"])?;
-        let cloud = self.pattern("cloud", frames.cloud.as_deref(), &["npy"])?;
+        let cloud = self.pattern("cloud", frames.cloud.as_deref(), &["npy", "pcd", "ply"])?;
         match (depth, cloud) {
             (Some(_), Some(_)) => {
                 Err(self.invalid("frames", "both depth and cloud are given", "Keep one of them"))
