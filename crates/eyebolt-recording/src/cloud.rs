@@ -1,9 +1,15 @@
-//! Point clouds in NPY.
+//! Point clouds in NPY, PCD and PLY.
 
-use crate::depth::{scaled, shape_text};
+mod float;
+mod npy;
+mod pcd;
+mod ply;
+mod text;
+
+use crate::depth::scaled;
 use crate::error::RecordingError;
+use crate::file::read_bytes;
 use crate::manifest::{CloudFrame, Unit};
-use crate::npy::{Dtype, Npy};
 use crate::unit_check::check_unit;
 use eyebolt_geometry::Cloud;
 use nalgebra::Point3;
@@ -11,41 +17,64 @@ use std::path::Path;
 
 const FIELD: &str = "cloud";
 
+/// Most points of a PCD or PLY file: twice what a camera with 4K gives.
+const MOST_POINTS: usize = 1 << 24;
+
+/// Largest PCD or PLY file, and most that a compressed one holds, bytes. Both are in memory at
+/// once; it is 16 bytes for each of the most points, or 48 for each of 5 million.
+const LARGEST: u64 = 256 << 20;
+
+/// Most bytes before the data of a PCD or PLY file.
+const LARGEST_HEADER: usize = 64 << 10;
+
+/// A cloud in the unit and the frame of its file.
+#[derive(Debug)]
+struct Stored {
+    /// Three coordinates for every point.
+    xyz: Vec<f32>,
+    /// Width and height, if the points are in the order of an image.
+    grid: Option<(u32, u32)>,
+}
+
 /// Reads a cloud stored in `unit` and `frame`; the points returned are in the optical frame.
 pub(crate) fn read_cloud(
     path: &Path,
+    extension: &str,
     unit: Unit,
     frame: CloudFrame,
 ) -> Result<Cloud, RecordingError> {
-    let npy = Npy::read(path, FIELD, &[Dtype::Float32, Dtype::Float64])?;
-    let grid = grid(path, npy.shape())?;
-    let values = scaled(npy.values(), unit);
+    let stored = match extension {
+        "pcd" => pcd::parse(path, read_bytes(path, FIELD, LARGEST)?)?,
+        "ply" => ply::parse(path, &read_bytes(path, FIELD, LARGEST)?)?,
+        _ => npy::read(path)?,
+    };
+    let values = scaled(stored.xyz, unit);
     let (triples, _) = values.as_chunks::<3>();
     let points: Vec<_> = triples.iter().map(|xyz| optical(*xyz, frame)).collect();
     check_unit(path, FIELD, unit, points.iter().map(|p| p.coords.norm()))?;
-    match grid {
+    match stored.grid {
         None => Ok(Cloud::new(points)),
-        Some((width, height)) => Cloud::organised(width, height, points).map_err(|error| {
-            RecordingError::invalid(path, FIELD, error.to_string(), "Store the whole cloud")
-        }),
+        Some((width, height)) => Cloud::organised(width, height, points)
+            .map_err(|error| invalid(path, error.to_string(), "Store the whole cloud")),
     }
 }
 
-/// Width and height where the shape is an image's.
-fn grid(path: &Path, shape: &[usize]) -> Result<Option<(u32, u32)>, RecordingError> {
-    let size = |axis: usize| u32::try_from(axis).ok();
-    match *shape {
-        [_, 3] | [1, _, 3] => Ok(None),
-        [height, width, 3] if size(width).is_some() && size(height).is_some() => {
-            Ok(size(width).zip(size(height)))
-        }
-        _ => Err(RecordingError::invalid(
-            path,
-            FIELD,
-            format!("the array is {}", shape_text(shape)),
-            "Store x, y, z as rows x columns x 3 (organised), or as points x 3",
-        )),
+fn invalid(path: &Path, problem: impl Into<String>, remedy: &str) -> RecordingError {
+    RecordingError::invalid(path, FIELD, problem, remedy)
+}
+
+/// The file has not the bytes that its header tells.
+fn damaged(path: &Path, problem: impl Into<String>) -> RecordingError {
+    invalid(path, problem, "The file is damaged or cut short: copy or write it again")
+}
+
+/// Refuses more points than are read here.
+fn check_count(path: &Path, count: usize) -> Result<(), RecordingError> {
+    if count <= MOST_POINTS {
+        return Ok(());
     }
+    let problem = format!("the header tells of {count} points, more than {MOST_POINTS}");
+    Err(invalid(path, problem, "Name the right file, or thin the cloud out"))
 }
 
 /// The point in the optical frame; NaN where there is none.

@@ -8,7 +8,7 @@ use std::path::Path;
 /// Largest file of depth, points, masks, colour or joints, bytes.
 pub(crate) const DATA_LIMIT: u64 = 512 << 20;
 
-/// Largest `recording.toml` or `camera_info.yaml`, bytes.
+/// Largest `recording.toml`, `camera_info.yaml` or joints of one frame as text, bytes.
 pub(crate) const TEXT_LIMIT: u64 = 1 << 20;
 
 /// All bytes of the file at `path`, which is `field` to the recording.
@@ -35,7 +35,16 @@ pub(crate) fn read_bytes(path: &Path, field: &str, limit: u64) -> Result<Vec<u8>
 
 /// The text of the file at `path`, which is `field` to the recording.
 pub(crate) fn read_text(path: &Path, field: &str) -> Result<String, RecordingError> {
-    String::from_utf8(read_bytes(path, field, TEXT_LIMIT)?).map_err(|error| {
+    read_long_text(path, field, TEXT_LIMIT)
+}
+
+/// As [`read_text`], up to another limit.
+pub(crate) fn read_long_text(
+    path: &Path,
+    field: &str,
+    limit: u64,
+) -> Result<String, RecordingError> {
+    String::from_utf8(read_bytes(path, field, limit)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         RecordingError::invalid(
             path,

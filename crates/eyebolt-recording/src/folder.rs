@@ -4,6 +4,7 @@ mod read;
 
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
+use crate::joints::Joints;
 use crate::manifest::{Manifest, RangeKind, RobotSection, Unit};
 use crate::pattern::Pattern;
 use eyebolt_geometry::PinholeCamera;
@@ -18,18 +19,19 @@ pub struct Folder {
     manifest: Manifest,
     camera: Option<CameraInfo>,
     names: Vec<String>,
+    joints: Joints,
 }
 
 impl Folder {
     /// Opens the recording whose folder, or whose `recording.toml`, is at `path`.
     ///
-    /// Reads the description and the camera, lists the frames and checks that their files exist;
-    /// what is in them is read later.
+    /// Reads the description, the camera and the table of the joints if there is one, lists the
+    /// frames and checks that their files exist; what is in them is read later.
     ///
     /// # Errors
     ///
-    /// A description that is not understood, a camera that cannot be read, no frames, or a frame
-    /// without its joints, mask or colour picture where these are named.
+    /// A description that is not understood, a camera or a table of joints that cannot be read, no
+    /// frames, or a frame without its joints, mask or colour picture where these are named.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let path = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
         let manifest = Manifest::read(&path)?;
@@ -47,7 +49,8 @@ impl Folder {
                 "Correct the pattern, or copy the files there",
             ));
         }
-        let folder = Self { manifest, camera, names };
+        let joints = Joints::open(&manifest, &names)?;
+        let folder = Self { manifest, camera, names, joints };
         folder.check_files()?;
         Ok(folder)
     }
@@ -104,7 +107,7 @@ impl Folder {
             })
         };
         let rest = "Add the file, move the frame away, or remove the key";
-        check("frames.joints", Some(&manifest.joints), "Add the file, or move the frame away")?;
+        check("frames.joints", self.joints.files(), "Add the file, or move the frame away")?;
         check("frames.mask", manifest.mask.as_ref(), rest)?;
         check("frames.color", manifest.color.as_ref(), rest)
     }

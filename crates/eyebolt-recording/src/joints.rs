@@ -1,50 +1,128 @@
-//! Joint positions in NPY.
+//! Joint positions in NPY, CSV and JSON.
 
-use crate::depth::shape_text;
+mod choice;
+mod csv;
+mod json;
+mod npy;
+mod table;
+
 use crate::error::RecordingError;
-use crate::npy::{Dtype, Npy};
+use crate::file::{read_long_text, read_text};
+use crate::manifest::{JointFiles, Manifest};
+use crate::pattern::{Pattern, extension};
 use eyebolt_robot::JointPositions;
 use std::f64::consts::PI;
 use std::path::Path;
+use table::Table;
 
 const FIELD: &str = "joints";
 
 /// No joint of an arm turns further, radians.
 const LARGEST_RAD: f64 = 4.0 * PI;
 
-/// Reads one position per name, radians (metres for prismatic joints).
-pub(crate) fn read_joints(path: &Path, names: &[String]) -> Result<JointPositions, RecordingError> {
-    let npy = Npy::read(path, FIELD, &[Dtype::Float32, Dtype::Float64])?;
-    let ([count] | [1, count] | [count, 1]) = *npy.shape() else {
-        let problem = format!("the array is {}", shape_text(npy.shape()));
-        let remedy = "Store one position per joint, and one file per frame";
-        return Err(RecordingError::invalid(path, FIELD, problem, remedy));
-    };
-    if count != names.len() {
-        return Err(RecordingError::invalid(
+/// Largest file with the joints of all frames, bytes: some 50 000 frames of CSV, or 10 000
+/// messages of ROS in JSON. Hostile text of that size makes 30 times as much of memory.
+const TABLE_LIMIT: u64 = 8 << 20;
+
+/// Most names in a file: no arm has as many joints, and no table as many columns.
+const MOST_NAMES: usize = 1000;
+
+/// Where the positions of every frame come from.
+#[derive(Clone, Debug)]
+pub(crate) enum Joints {
+    /// Files, to be read when a frame is asked for.
+    PerFrame(Pattern),
+    /// Memory, one after the other in the order of the frames.
+    Table(Vec<JointPositions>),
+}
+
+impl Joints {
+    /// Reads the table of the joints, if there is one, for frames of these names.
+    pub(crate) fn open(manifest: &Manifest, frames: &[String]) -> Result<Self, RecordingError> {
+        let path = match &manifest.joints {
+            JointFiles::PerFrame(pattern) => return Ok(Self::PerFrame(pattern.clone())),
+            JointFiles::Table(path) => path,
+        };
+        let text = read_long_text(path, FIELD, TABLE_LIMIT)?;
+        let names = manifest.joint_names.as_deref();
+        let mut table = Table::new(path, frames);
+        match extension(path).as_str() {
+            "json" => json::read_table(&text, names, &mut table)?,
+            _ => csv::read_table(&text, names, &mut table)?,
+        }
+        table.finish().map(Self::Table)
+    }
+
+    /// The files, if there is one for every frame.
+    pub(crate) fn files(&self) -> Option<&Pattern> {
+        match self {
+            Self::PerFrame(pattern) => Some(pattern),
+            Self::Table(_) => None,
+        }
+    }
+}
+
+/// Reads the positions of one frame from its own file.
+pub(crate) fn read_joints(
+    path: &Path,
+    extension: &str,
+    names: Option<&[String]>,
+) -> Result<JointPositions, RecordingError> {
+    match extension {
+        "csv" => csv::read(path, &read_text(path, FIELD)?, names),
+        "json" => json::read(path, &read_text(path, FIELD)?, names),
+        // The description has been refused if it has no names for these.
+        _ => npy::read(path, names.unwrap_or_default()),
+    }
+}
+
+fn invalid(path: &Path, problem: impl Into<String>, remedy: &str) -> RecordingError {
+    RecordingError::invalid(path, FIELD, problem, remedy)
+}
+
+/// One position per name, radians (metres for prismatic joints), if all are plausible; `place` is
+/// where in the file, for messages.
+fn positions(
+    path: &Path,
+    place: &str,
+    pairs: Vec<(String, f64)>,
+) -> Result<JointPositions, RecordingError> {
+    for (name, position) in &pairs {
+        check(path, place, name, *position)?;
+    }
+    Ok(pairs.into_iter().collect())
+}
+
+/// One position for each of `names`, which are all that is known of numbers without names.
+fn in_order(
+    path: &Path,
+    names: &[String],
+    numbers: Vec<f64>,
+) -> Result<JointPositions, RecordingError> {
+    let (count, expected) = (numbers.len(), names.len());
+    if count != expected {
+        return Err(invalid(
             path,
-            FIELD,
-            format!("the file has {count} positions, but joint_names has {} names", names.len()),
+            format!("the file has {count} positions, but joint_names has {expected} names"),
             "Correct frames.joint_names in recording.toml: one name per position, in their order",
         ));
     }
-    let positions: Vec<f64> = npy.values();
-    for (name, position) in names.iter().zip(&positions) {
-        check(path, name, *position)?;
-    }
-    Ok(names.iter().cloned().zip(positions).collect())
+    positions(path, "", names.iter().cloned().zip(numbers).collect())
 }
 
-fn check(path: &Path, name: &str, position: f64) -> Result<(), RecordingError> {
+fn check(path: &Path, place: &str, name: &str, position: f64) -> Result<(), RecordingError> {
     let (problem, remedy) = if !position.is_finite() {
-        (format!("the position of {name} is {position}"), "Record the frame again, or leave it out")
+        (
+            format!("{place}the position of {name} is {position}"),
+            "Record the frame again, or leave it out",
+        )
     } else if position.abs() > LARGEST_RAD {
         (
-            format!("the position of {name} is {position}, which looks like degrees"),
+            format!("{place}the position of {name} is {position}, which looks like degrees"),
             "Store radians (and metres for prismatic joints)",
         )
     } else {
         return Ok(());
     };
-    Err(RecordingError::invalid(path, FIELD, problem, remedy))
+    Err(invalid(path, problem, remedy))
 }

@@ -7,19 +7,30 @@
 //! info = "camera_info.yaml"          # of the depth, as ROS prints it
 //!
 //! [frames]                           # {} is the frame's number or name
-//! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy"
+//! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy", PCD or PLY
 //! depth_unit = "m"                   # "m" or "mm"
 //! # cloud_frame = "optical"          # clouds only; or "body" (x forward, y left, z up)
 //! color = "color_{}.png"             # optional
 //! mask = "mask_{}.png"               # optional, the whole arm
-//! joints = "joint_states_{}.npy"     # radians
-//! joint_names = ["joint_1", "joint_2"]
+//! joints = "joint_states_{}.npy"     # radians; or CSV or JSON
+//! joint_names = ["joint_1", "joint_2"] # in the order of NPY; optional with CSV and JSON
 //!
 //! [robot]                            # optional
 //! urdf = "robot.urdf"
 //! base = "base_link"
 //! end_effector = "hand"
 //! ```
+//!
+//! CSV and JSON name the joints themselves, and `joint_names` then says which of them count. Without
+//! `{}`, as in `joints = "joints.csv"`, one file has the joints of all frames:
+//!
+//! ```csv
+//! frame,joint_1,joint_2
+//! 0,0.5,-1.25
+//! ```
+//!
+//! or, as `joints.json`, `{"0": {"joint_1": 0.5, "joint_2": -1.25}}`, where the inner object may as
+//! well be a `sensor_msgs/JointState` with `name` and `position`.
 //!
 //! Paths are relative to the file. [`Folder`] reads it; everything returned is in metres, radians
 //! and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors

@@ -57,6 +57,15 @@ pub(crate) enum RangeKind {
     Cloud(CloudFrame),
 }
 
+/// Where the positions of the joints are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum JointFiles {
+    /// A file for every frame.
+    PerFrame(Pattern),
+    /// One file of all frames, CSV or JSON.
+    Table(PathBuf),
+}
+
 /// A `recording.toml` that makes sense; paths are joined to its folder.
 #[derive(Clone, Debug)]
 pub(crate) struct Manifest {
@@ -67,8 +76,9 @@ pub(crate) struct Manifest {
     pub(crate) unit: Unit,
     pub(crate) color: Option<Pattern>,
     pub(crate) mask: Option<Pattern>,
-    pub(crate) joints: Pattern,
-    pub(crate) joint_names: Vec<String>,
+    pub(crate) joints: JointFiles,
+    /// In the order of the numbers of an NPY file, which has no names of its own.
+    pub(crate) joint_names: Option<Vec<String>>,
     pub(crate) robot: RobotSection,
 }
 
@@ -95,9 +105,7 @@ impl Manifest {
                 source.missing("camera.info", "name the camera_info.yaml of the depth camera")
             );
         }
-        let Some(joints) = source.pattern("joints", frames.joints.as_deref(), &["npy"])? else {
-            return Err(source.missing("frames.joints", "name the files of the joint states"));
-        };
+        let joints = source.joints(frames)?;
         Ok(Self {
             path: path.to_path_buf(),
             camera_info: info,
@@ -106,8 +114,8 @@ impl Manifest {
             unit: source.unit(frames)?,
             color: source.pattern("color", frames.color.as_deref(), &["png"])?,
             mask: source.pattern("mask", frames.mask.as_deref(), &["png"])?,
+            joint_names: source.joint_names(frames, &joints)?,
             joints,
-            joint_names: source.joint_names(frames)?,
             robot: RobotSection {
                 urdf: raw.robot.urdf.map(|urdf| root.join(urdf)),
                 description: None,

@@ -96,6 +96,11 @@ impl Pattern {
     }
 }
 
+/// How the name of the file at `path` ends, in lower case, without the dot.
+pub(crate) fn extension(path: &Path) -> String {
+    path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
 /// Compares runs of digits as numbers and the rest as text; equal only if the texts are.
 pub(crate) fn natural_order(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a, b);

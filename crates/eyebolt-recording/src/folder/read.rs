@@ -6,11 +6,12 @@ use crate::color::{ColorImage, read_color};
 use crate::depth::read_depth;
 use crate::error::RecordingError;
 use crate::frame::{Frame, Range};
-use crate::joints::read_joints;
+use crate::joints::{Joints, read_joints};
 use crate::manifest::{CloudFrame, RangeKind};
 use crate::mask::read_mask;
 use crate::png_image::Expected;
 use eyebolt_geometry::{Cloud, Mask};
+use eyebolt_robot::JointPositions;
 use std::path::Path;
 
 impl Folder {
@@ -28,17 +29,22 @@ impl Folder {
         Ok(Frame { name: name.to_owned(), range, mask, joints })
     }
 
-    /// Positions of the joints at frame `index`.
+    /// Reads the positions of the joints at frame `index`, counted from 0, and nothing else of it:
+    /// radians, metres for prismatic joints.
     ///
     /// # Errors
     ///
-    /// No such frame, or positions that cannot be read.
-    pub fn read_joints(
-        &self,
-        index: usize,
-    ) -> Result<eyebolt_robot::JointPositions, RecordingError> {
+    /// No such frame; a file that cannot be read or is damaged; a joint of the description that is
+    /// not there, or is there twice; a position that is not finite or cannot be in radians.
+    pub fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
         let name = self.name(index)?;
-        read_joints(&self.manifest.joints.path(name), &self.manifest.joint_names)
+        match &self.joints {
+            Joints::Table(rows) => rows.get(index).cloned().ok_or_else(|| self.no_frame(index)),
+            Joints::PerFrame(pattern) => {
+                let names = self.manifest.joint_names.as_deref();
+                read_joints(&pattern.path(name), pattern.extension(), names)
+            }
+        }
     }
 
     /// Reads the colour picture of frame `index`; `None` if the recording has no pictures.
@@ -54,11 +60,12 @@ impl Folder {
     }
 
     fn name(&self, index: usize) -> Result<&str, RecordingError> {
-        self.names.get(index).map(String::as_str).ok_or_else(|| RecordingError::NoSuchFrame {
-            path: self.manifest.path.clone(),
-            index,
-            count: self.names.len(),
-        })
+        self.names.get(index).map(String::as_str).ok_or_else(|| self.no_frame(index))
+    }
+
+    fn no_frame(&self, index: usize) -> RecordingError {
+        let path = self.manifest.path.clone();
+        RecordingError::NoSuchFrame { path, index, count: self.names.len() }
     }
 
     fn range(&self, name: &str) -> Result<Range, RecordingError> {
@@ -85,7 +92,8 @@ impl Folder {
         frame: CloudFrame,
         camera: Option<Expected<'_>>,
     ) -> Result<Cloud, RecordingError> {
-        let cloud = read_cloud(path, self.manifest.unit, frame)?;
+        let extension = self.manifest.range.extension();
+        let cloud = read_cloud(path, extension, self.manifest.unit, frame)?;
         match (cloud.grid(), camera) {
             (Some((w, h)), Some((width, height, what))) if (w, h) != (width, height) => {
                 let problem =
@@ -109,7 +117,8 @@ impl Folder {
                     "the cloud {} is a list of points, and no pixel of a mask belongs to one",
                     range_path.display()
                 ),
-                "Store the cloud as rows x columns x 3, or remove frames.mask",
+                "Store the cloud with rows and columns (an NPY of rows x columns x 3, a PCD with \
+                 HEIGHT), or remove frames.mask",
             ));
         };
         read_mask(&path, (width, height, &range_path.display().to_string())).map(Some)

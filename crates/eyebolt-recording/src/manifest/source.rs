@@ -1,9 +1,9 @@
 //! From the spelled fields to their meaning.
 
 use super::raw::RawFrames;
-use super::{CloudFrame, RangeKind, Unit};
+use super::{CloudFrame, JointFiles, RangeKind, Unit};
 use crate::error::RecordingError;
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, extension};
 use std::path::Path;
 
 /// Where the description came from, for messages and for paths relative to it.
@@ -33,7 +33,7 @@ impl Source<'_> {
 
     pub(super) fn range(&self, frames: &RawFrames) -> Result<(RangeKind, Pattern), RecordingError> {
         let depth = self.pattern("depth", frames.depth.as_deref(), &["npy", "png"])?;
-        let cloud = self.pattern("cloud", frames.cloud.as_deref(), &["npy"])?;
+        let cloud = self.pattern("cloud", frames.cloud.as_deref(), &["npy", "pcd", "ply"])?;
         match (depth, cloud) {
             (Some(_), Some(_)) => {
                 Err(self.invalid("frames", "both depth and cloud are given", "Keep one of them"))
@@ -78,18 +78,42 @@ impl Source<'_> {
         }
     }
 
-    pub(super) fn joint_names(&self, frames: &RawFrames) -> Result<Vec<String>, RecordingError> {
+    pub(super) fn joints(&self, frames: &RawFrames) -> Result<JointFiles, RecordingError> {
+        let text = frames.joints.as_deref();
+        if let Some(text) = text.filter(|text| !text.contains("{}")) {
+            let path = self.root.join(text);
+            // NPY has nowhere to say which frame a position is of.
+            if ["csv", "json"].contains(&extension(&path).as_str()) {
+                return Ok(JointFiles::Table(path));
+            }
+        }
+        let pattern = self.pattern("joints", text, &["npy", "csv", "json"])?;
+        pattern
+            .map(JointFiles::PerFrame)
+            .ok_or_else(|| self.missing("frames.joints", "name the files of the joint states"))
+    }
+
+    pub(super) fn joint_names(
+        &self,
+        frames: &RawFrames,
+        joints: &JointFiles,
+    ) -> Result<Option<Vec<String>>, RecordingError> {
         let field = "frames.joint_names";
-        let Some(names) = frames.joint_names.as_ref().filter(|names| !names.is_empty()) else {
+        let nameless =
+            matches!(joints, JointFiles::PerFrame(pattern) if pattern.extension() == "npy");
+        let Some(names) = &frames.joint_names else {
             let what = "NPY files carry no names, so list the joints in the order of the numbers";
-            return Err(self.missing(field, what));
+            return if nameless { Err(self.missing(field, what)) } else { Ok(None) };
         };
+        if names.is_empty() {
+            return Err(self.invalid(field, "the list is empty", "List the joints of the arm"));
+        }
         for (i, name) in names.iter().enumerate() {
             if names.iter().take(i).any(|earlier| earlier == name) {
                 let problem = format!("\"{name}\" is listed twice");
                 return Err(self.invalid(field, problem, "List every joint once"));
             }
         }
-        Ok(names.clone())
+        Ok(Some(names.clone()))
     }
 }

@@ -1,8 +1,13 @@
 //! Recordings in folders, written by the tests and read back.
 
 mod camera_info;
+mod cloud_errors;
+mod clouds;
 mod damaged;
 mod errors;
+mod joint_errors;
+mod joint_files;
 mod laws;
+mod pcl;
 mod real;
 mod sample;
