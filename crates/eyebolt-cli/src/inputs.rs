@@ -1,7 +1,7 @@
 //! Flags that say what the recording and the robot are, shared by the commands.
 
-use anyhow::{Result, bail};
-use eyebolt_recording::{BagOptions, CloudFrame, Recording};
+use anyhow::{Context, Result, bail};
+use eyebolt_recording::{BagOptions, CloudFrame, Recording, WriteRobot};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::path::{Path, PathBuf};
@@ -128,6 +128,15 @@ impl RobotArguments {
                 file.display()
             );
         };
+        self.arm_of(robot, recording)
+    }
+
+    /// As [`Self::arm`]; `None` if neither flags nor recording say what the robot is.
+    pub fn arm_if_known(&self, recording: &Recording) -> Result<Option<Arm>> {
+        self.robot(recording)?.map(|robot| self.arm_of(robot, recording)).transpose()
+    }
+
+    fn arm_of(&self, robot: Robot, recording: &Recording) -> Result<Arm> {
         let section = recording.robot();
         // The recording's links are those of the robot it names, not of another given instead.
         let other = self.robot.is_some();
@@ -135,6 +144,22 @@ impl RobotArguments {
         let base = self.base.as_ref().or(section.base.as_ref().filter(known));
         let hand = self.end_effector.as_ref().or(section.end_effector.as_ref().filter(known));
         Ok(robot.arm(base.map(String::as_str), hand.map(String::as_str))?)
+    }
+
+    /// What the flags and the recording say of the robot, for those who read the recording later.
+    pub fn to_write(&self, recording: &Recording) -> Result<WriteRobot> {
+        let section = recording.robot();
+        let urdf = match self.robot.as_ref().or(section.urdf.as_ref()) {
+            Some(path) => {
+                // Whoever reads it later will; better told now.
+                Robot::from_urdf_file(path, &self.packages())?;
+                let failed = || format!("{}: cannot read the URDF", path.display());
+                Some(std::fs::read_to_string(path).with_context(failed)?)
+            }
+            None => section.description.clone(),
+        };
+        let (base, end_effector) = (self.base.clone(), self.end_effector.clone());
+        Ok(WriteRobot { urdf, base, end_effector })
     }
 
     fn robot(&self, recording: &Recording) -> Result<Option<Robot>> {

@@ -1,6 +1,8 @@
 //! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
 
 mod calibrate;
+mod convert;
+mod info;
 mod inputs;
 mod output;
 mod progress;
@@ -23,6 +25,10 @@ struct Arguments {
 enum Command {
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(calibrate::Arguments),
+    /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
+    Info(info::Arguments),
+    /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
+    Convert(convert::Arguments),
 }
 
 /// How a command that ran to its end turned out.
@@ -36,6 +42,8 @@ fn main() -> ExitCode {
     let Arguments { command } = Arguments::parse();
     let ending = match command {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

@@ -1,6 +1,7 @@
 //! Files that appear whole or not at all, and the only places that print.
 
 use anyhow::{Result, anyhow, bail};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -89,21 +90,55 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Writes beside `path`, then renames: whoever looks sees the old file or the new one, whole.
 pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<()> {
+    write_through(path, force, |file| Ok(file.write_all(bytes)?))
+}
+
+/// As [`write_whole`], with whatever `fill` writes into the file. If it fails, nothing is left.
+pub fn write_through(
+    path: &Path,
+    force: bool,
+    fill: impl FnOnce(&mut File) -> Result<()>,
+) -> Result<()> {
     refuse_existing(path, force)?;
+    let failed =
+        |error: std::io::Error| anyhow!("{}: cannot write: {}", path.display(), error.kind());
     let folder = folder_of(path);
-    let write = || -> std::io::Result<()> {
-        std::fs::create_dir_all(folder)?;
-        let mut file = beside(folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        if force {
-            file.persist(path)?
-        } else {
-            file.persist_noclobber(path)?
-        };
-        Ok(())
-    };
-    write().map_err(|error| anyhow!("{}: cannot write: {}", path.display(), error.kind()))
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let mut file = beside(folder).map_err(failed)?;
+    fill(file.as_file_mut()).map_err(|error| match error.downcast::<std::io::Error>() {
+        Ok(error) => failed(error),
+        Err(error) => error,
+    })?;
+    file.as_file().sync_all().map_err(failed)?;
+    let persisted = if force { file.persist(path) } else { file.persist_noclobber(path) };
+    persisted.map(drop).map_err(|error| failed(error.error))
+}
+
+/// A folder that appears whole, with whatever `fill` writes into it. If it fails, nothing is left.
+pub fn write_folder_whole(
+    path: &Path,
+    force: bool,
+    fill: impl FnOnce(&Path) -> Result<()>,
+) -> Result<()> {
+    refuse_existing(path, force)?;
+    let failed =
+        |error: std::io::Error| anyhow!("{}: cannot write: {}", path.display(), error.kind());
+    let above = folder_of(path);
+    std::fs::create_dir_all(above).map_err(failed)?;
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o755));
+    let new = builder.tempdir_in(above).map_err(failed)?;
+    fill(new.path())?;
+    // What is replaced goes last, when the new one is there.
+    let old = builder.tempdir_in(above).map_err(failed)?;
+    if path.exists() {
+        std::fs::rename(path, old.path().join("replaced")).map_err(failed)?;
+    }
+    std::fs::rename(new.path(), path).map_err(failed)?;
+    // Under its new name, nothing removes it any more.
+    let _ = new.keep();
+    Ok(())
 }
 
 /// A file in `folder` that others may read, as results may; temporary ones are private by default.

@@ -55,6 +55,13 @@ pub struct BagOptions {
     pub scratch: PathBuf,
 }
 
+impl BagOptions {
+    fn scratch(&self) -> &Path {
+        let empty = self.scratch.as_os_str().is_empty();
+        if empty { Path::new(".") } else { &self.scratch }
+    }
+}
+
 /// A recording in a bag. Frames are read when asked for, from as many threads as wanted.
 #[derive(Debug)]
 pub struct BagRecording {
@@ -102,10 +109,7 @@ impl BagRecording {
     /// A file that cannot be read or is damaged (unless `partial` is asked for), no topic or
     /// several that could be meant, a camera that cannot be read, or no frame that can be used.
     pub fn open(path: &Path, options: &BagOptions) -> Result<Self, RecordingError> {
-        let here = Path::new(".");
-        let scratch =
-            if options.scratch.as_os_str().is_empty() { here } else { options.scratch.as_path() };
-        let bag = Bag::open(path, scratch)?;
+        let bag = Bag::open(path, options.scratch())?;
         let scan = Scan::new(&bag, options.partial)?;
         let chosen = Chosen::new(path, &scan, options)?;
         let mut recording = Self {
@@ -336,6 +340,11 @@ impl BagRecording {
 
     fn summary(&self, number: usize) -> Option<TopicSummary> {
         let topic = self.scan.topics.get(number)?;
+        Some(summary(topic, self.role(number)))
+    }
+
+    /// What a topic is to the recording.
+    fn role(&self, number: usize) -> Option<&'static str> {
         let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
         let roles = [
             (Some(range), "depth"),
@@ -345,19 +354,7 @@ impl BagRecording {
             (color, "color"),
             (mask, "mask"),
         ];
-        let role = roles.into_iter().find(|(role, _)| *role == Some(number)).map(|(_, name)| name);
-        let span_s = topic.last_ns.saturating_sub(topic.first_ns) as f64 * 1e-9;
-        let rate_hz = (topic.count - 1) as f64 / span_s;
-        Some(TopicSummary {
-            name: topic.name.clone(),
-            message_type: topic.message_type.clone(),
-            role,
-            count: topic.count,
-            bytes: topic.bytes,
-            rate_hz: Some(rate_hz).filter(|rate| *rate > 0.0 && rate.is_finite()),
-            frame_id: topic.frame_id.clone(),
-            problems: problems(topic),
-        })
+        roles.into_iter().find(|(role, _)| *role == Some(number)).map(|(_, name)| name)
     }
 
     fn unreadable(
@@ -375,6 +372,32 @@ const MOST_BACKWARD: u64 = 100;
 
 fn seconds(ns: i64) -> String {
     format!("{:.3} s", ns as f64 * 1e-9)
+}
+
+/// The topics of the bag at `path`, whether or not they make a recording.
+///
+/// # Errors
+///
+/// A file that cannot be read or is damaged (unless `partial` is asked for).
+pub fn list_topics(path: &Path, options: &BagOptions) -> Result<Vec<TopicSummary>, RecordingError> {
+    let bag = Bag::open(path, options.scratch())?;
+    let scan = Scan::new(&bag, options.partial)?;
+    Ok(scan.topics.iter().map(|topic| summary(topic, None)).collect())
+}
+
+fn summary(topic: &TopicScan, role: Option<&'static str>) -> TopicSummary {
+    let span_s = topic.last_ns.saturating_sub(topic.first_ns) as f64 * 1e-9;
+    let rate_hz = topic.count.saturating_sub(1) as f64 / span_s;
+    TopicSummary {
+        name: topic.name.clone(),
+        message_type: topic.message_type.clone(),
+        role,
+        count: topic.count,
+        bytes: topic.bytes,
+        rate_hz: Some(rate_hz).filter(|rate| *rate > 0.0 && rate.is_finite()),
+        frame_id: topic.frame_id.clone(),
+        problems: problems(topic),
+    }
 }
 
 fn problems(topic: &TopicScan) -> Vec<String> {

@@ -62,7 +62,7 @@ pub(crate) const METADATA_NAME: &str = "eyebolt";
 
 pub use bag::BagKind;
 pub use bag_recording::{
-    BagOptions, BagRecording, ClockOffset, DropReason, DroppedFrame, TopicSummary,
+    BagOptions, BagRecording, ClockOffset, DropReason, DroppedFrame, TopicSummary, list_topics,
 };
 pub use camera_info::CameraInfo;
 pub use color::ColorImage;

@@ -168,15 +168,15 @@ impl Default for RecordOptions {
 }
 
 /// Frames with the arm in one place.
-struct Group {
+pub(crate) struct Group {
     /// Indices, rising.
-    frames: Vec<usize>,
+    pub(crate) frames: Vec<usize>,
     /// Where the joints of the first frame put the links.
     first: Placement,
 }
 
 /// Frames of each configuration, in order of appearance.
-fn group_frames(recording: &Recording, arm: &Arm) -> Result<Vec<Group>, RecordError> {
+pub(crate) fn group_frames(recording: &Recording, arm: &Arm) -> Result<Vec<Group>, RecordError> {
     let mut groups: Vec<Group> = Vec::new();
     for (index, name) in recording.frame_names().iter().enumerate() {
         let placement = place(arm, name, &recording.read_joints(index)?)?;

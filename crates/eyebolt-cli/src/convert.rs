@@ -1,0 +1,155 @@
+//! `eyebolt convert`.
+
+use crate::Ending;
+use crate::inputs::{RecordingArguments, RobotArguments};
+use crate::output;
+use anyhow::{Context, Result, anyhow, bail};
+use eyebolt_recording::{Recording, WriteError, write_folder, write_mcap};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::BufWriter;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Options of `eyebolt convert`.
+///
+/// A bag becomes an MCAP with the messages that a calibration needs: depth, intrinsics, joint states,
+/// robot description, static transforms, and masks and colour where there are any. A folder holds the
+/// frames at rest only.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    recording: RecordingArguments,
+    /// What to write: a file that ends in .mcap, or a folder
+    output: PathBuf,
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// Replace what exists
+    #[arg(long)]
+    force: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    let output = &arguments.output;
+    let kind = Kind::of(output)?;
+    check(arguments, kind)?;
+    let recording = arguments.recording.open()?;
+    let robot = arguments.robot.to_write(&recording)?;
+    let bar = Bar::new()?;
+    match kind {
+        Kind::Mcap => output::write_through(output, arguments.force, |file| {
+            let writer = BufWriter::new(file);
+            write_mcap(&recording, &robot, writer, &mut |done, total| bar.tell(done, total))
+                .map_err(|error| named(error, output))
+        })?,
+        Kind::Folder => output::write_folder_whole(output, arguments.force, |folder| {
+            write_folder(&recording, &robot, folder, &mut |done, total| bar.tell(done, total))
+                .map_err(|error| named(error, output))
+        })?,
+    }
+    bar.bar.finish_and_clear();
+    output::say(&summary(&recording, kind, output, robot.urdf.is_some()));
+    Ok(Ending::Done)
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Mcap,
+    Folder,
+}
+
+impl Kind {
+    fn of(output: &Path) -> Result<Self> {
+        let ending = output.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        match ending.to_ascii_lowercase().as_str() {
+            "mcap" => Ok(Self::Mcap),
+            "bag" | "db3" | "zstd" | "zst" | "toml" => bail!(
+                "{}: files in .{ending} are not written. Name one that ends in .mcap, or a folder",
+                output.display()
+            ),
+            _ => Ok(Self::Folder),
+        }
+    }
+}
+
+/// Better told now than after the work.
+fn check(arguments: &Arguments, kind: Kind) -> Result<()> {
+    let output = &arguments.output;
+    output::refuse_existing(output, arguments.force)?;
+    let same =
+        || Some(output.canonicalize().ok()? == arguments.recording.recording.canonicalize().ok()?);
+    if same() == Some(true) {
+        bail!("{}: this is the recording itself. Name another place", output.display());
+    }
+    match kind {
+        Kind::Mcap if output.is_dir() => {
+            bail!("{}: this is a folder. Name a file in it", output.display())
+        }
+        // With --force, only what looks like a recording is replaced: never somebody's home.
+        Kind::Folder if output.exists() && !output.join("recording.toml").is_file() => bail!(
+            "{}: there is something that is no recording. Name another place",
+            output.display()
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// The error, with the name that the user gave instead of a temporary one.
+fn named(error: WriteError, output: &Path) -> anyhow::Error {
+    match error {
+        WriteError::File { cause, .. } => anyhow!(
+            "{}: cannot write: {cause}. Make room there, or name another place",
+            output.display()
+        ),
+        other => other.into(),
+    }
+}
+
+fn summary(recording: &Recording, kind: Kind, output: &Path, robot: bool) -> String {
+    let count = recording.frame_names().len();
+    let dropped = recording.bag().map_or(0, |bag| bag.dropped_frames().len());
+    let frames = match (kind, dropped) {
+        (_, 0) => format!("{count} frames"),
+        (Kind::Mcap, _) => format!("{} frames, {count} of them at rest", count + dropped),
+        (Kind::Folder, _) => {
+            format!("{count} frames at rest; {dropped} others are left out (see `eyebolt info`)")
+        }
+    };
+    let mut text = format!("{frames}, written to {}", output.display());
+    if robot {
+        text += "\nmeshes are not part of it: give --package-path when reading it elsewhere";
+    } else {
+        text += "\nthere is no robot description in it: give --robot arm.urdf to add one";
+    }
+    text
+}
+
+/// Shows how far the work is, and ends it on Ctrl-C.
+struct Bar {
+    bar: ProgressBar,
+    stopped: Arc<AtomicBool>,
+}
+
+impl Bar {
+    fn new() -> Result<Self> {
+        let stopped = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&stopped);
+        ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed))
+            .context("cannot listen for Ctrl-C")?;
+        let bar = ProgressBar::new(0);
+        let style = ProgressStyle::with_template("{bar:24} {percent}% {elapsed}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Ok(Self { bar, stopped })
+    }
+
+    fn tell(&self, done: usize, total: usize) -> ControlFlow<()> {
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
+        match self.stopped.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! `eyebolt info`.
+
+use crate::Ending;
+use crate::inputs::{RecordingArguments, RobotArguments};
+use crate::output;
+use anyhow::Result;
+use eyebolt::info::{Info, Topic, topic};
+use eyebolt_recording::list_topics;
+use std::fmt::{self, Write};
+
+/// Options of `eyebolt info`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    recording: RecordingArguments,
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    let recording = match arguments.recording.open() {
+        Ok(recording) => recording,
+        Err(error) => {
+            // Which topics there are is what one wants to know now.
+            let path = &arguments.recording.recording;
+            if let Ok(topics) = list_topics(path, &arguments.recording.bag.options())
+                && !arguments.json
+                && !topics.is_empty()
+            {
+                let topics: Vec<_> = topics.into_iter().map(topic).collect();
+                output::say(&table(&topics));
+            }
+            return Err(error);
+        }
+    };
+    // A recording without a robot can be looked at all the same.
+    let arm = arguments.robot.arm_if_known(&recording)?;
+    let info = Info::new(&recording, arm.as_ref())?;
+    let text = if arguments.json { info.to_json() } else { text(&info) };
+    output::say(text.trim_end());
+    Ok(Ending::Done)
+}
+
+fn text(info: &Info) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = overview(&mut text, info);
+    let _ = robot(&mut text, info);
+    if !info.topics.is_empty() {
+        let _ = writeln!(text, "\n{}", table(&info.topics).trim_end());
+    }
+    for damage in info.damage.iter().take(5) {
+        let _ = writeln!(text, "\ndamaged: {damage}");
+    }
+    let _ = match info.advice.as_slice() {
+        [] => writeln!(text, "\nready to calibrate"),
+        advice => advice.iter().try_for_each(|line| write!(text, "\n- {line}")),
+    };
+    text
+}
+
+fn overview(text: &mut String, info: &Info) -> fmt::Result {
+    let depth = &info.depth;
+    let mut line = |name: &str, value: String| writeln!(text, "{name:<15} {value}");
+    line("recording", info.kind.to_owned())?;
+    let size = depth.size.map_or("points without order".to_owned(), |(w, h)| format!("{w} x {h}"));
+    let frame = depth.frame_id.as_deref().unwrap_or("a frame without a name");
+    line("depth", format!("{size}, in {frame}"))?;
+    if let Some([fx, fy, cx, cy]) = depth.intrinsics_px {
+        line("camera", format!("fx {fx:.2}, fy {fy:.2}, cx {cx:.2}, cy {cy:.2} px"))?;
+    }
+    let valid = format!("{:.0} % of the pixels have depth", 100.0 * depth.share_valid);
+    let range = depth.range_m.map(|[near, middle, far]| {
+        format!(", {near:.2} to {far:.2} m, half of them within {middle:.2} m")
+    });
+    line("", valid + &range.unwrap_or_default())?;
+    let masks = if depth.masks { ", with masks" } else { "" };
+    line("frames", format!("{} take part{masks}", info.frames.used))?;
+    for (reason, count) in &info.frames.dropped {
+        let first = info.frames.dropped_frames.iter().find(|frame| frame.kind == *reason);
+        let why = first.map(|f| format!(" (frame {}: {})", f.frame, f.reason)).unwrap_or_default();
+        line("", format!("{count} are left out: {}{why}", reason.replace('_', " ")))?;
+    }
+    let configurations = &info.configurations;
+    let counts: Vec<_> = configurations.iter().take(30).map(|c| c.frames.to_string()).collect();
+    let more = if configurations.len() > 30 { "..." } else { "" };
+    let frames = if counts.is_empty() {
+        String::new()
+    } else {
+        format!(" (frames: {}{more})", counts.join(" "))
+    };
+    line("configurations", format!("{}{frames}", configurations.len()))?;
+    line("joints", info.joints.join(" "))?;
+    if let Some(clock) = info.clock {
+        let applied = if clock.applied { ", made up for" } else { "" };
+        line("clocks", format!("{:+.3} s from depth to joints{applied}", clock.offset_s))?;
+    }
+    Ok(())
+}
+
+fn robot(text: &mut String, info: &Info) -> fmt::Result {
+    let Some(robot) = &info.robot else { return Ok(()) };
+    writeln!(text, "{:<15} {}: {} to {}", "robot", robot.name, robot.base, robot.end_effector)?;
+    if !robot.unknown_joints.is_empty() {
+        writeln!(text, "{:<15} not of this robot: {}", "", robot.unknown_joints.join(" "))?;
+    }
+    Ok(())
+}
+
+fn table(topics: &[Topic]) -> String {
+    let mut text = String::new();
+    let width = topics.iter().map(|topic| topic.name.len()).max().unwrap_or(0);
+    for topic in topics {
+        let role = topic.role.unwrap_or("");
+        let rate = topic.rate_hz.map(|rate| format!("{rate:.1} Hz")).unwrap_or_default();
+        let _ = writeln!(
+            text,
+            "{role:<10} {:<width$}  {:>8} x  {:>10}  {}",
+            topic.name, topic.count, rate, topic.message_type
+        );
+        for problem in &topic.problems {
+            let _ = writeln!(text, "{:<10} {problem}", "");
+        }
+    }
+    text
+}

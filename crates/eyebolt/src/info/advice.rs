@@ -1,0 +1,132 @@
+//! What to do about what is not as it should be.
+
+use super::Info;
+
+/// Fewer configurations are refused; and as many make a good answer.
+const FEWEST: usize = 3;
+const ENOUGH: usize = 5;
+/// Below this share of pixels with depth, little of an arm is seen.
+const LITTLE_DEPTH: f64 = 0.3;
+/// Depth cameras see from here to there, metres.
+const PLAUSIBLE_M: (f64, f64) = (0.1, 12.0);
+/// Delays between depth and joints beyond this are worth a word, seconds.
+const LATE_S: f64 = 0.15;
+
+/// Sentences, the most important first.
+pub(super) fn advice(info: &Info) -> Vec<String> {
+    let mut advice = Vec::new();
+    robot(info, &mut advice);
+    configurations(info, &mut advice);
+    depth(info, &mut advice);
+    clock(info, &mut advice);
+    if !info.damage.is_empty() {
+        advice.push(format!(
+            "{} parts of the bag are damaged: what they held is lost to this recording",
+            info.damage.len()
+        ));
+    }
+    advice
+}
+
+fn robot(info: &Info, advice: &mut Vec<String>) {
+    let Some(robot) = &info.robot else {
+        advice.push(
+            "no robot is known: give --robot arm.urdf, or record /robot_description".to_owned(),
+        );
+        return;
+    };
+    if !robot.missing_joints.is_empty() {
+        advice.push(format!(
+            "joint {} of {} not recorded: record these joint states, or give the URDF of the robot \
+             that was recorded",
+            robot.missing_joints.join(", "),
+            if robot.missing_joints.len() == 1 { "the arm is" } else { "the arm are" },
+        ));
+    }
+    for outside in &robot.outside_limits {
+        let degrees = outside.position.abs() > 2.0 * outside.upper.abs().max(outside.lower.abs());
+        advice.push(format!(
+            "joint {} is at {:.3} in frame {}, outside its limits {:.3} to {:.3}: {}",
+            outside.joint,
+            outside.position,
+            outside.frame,
+            outside.lower,
+            outside.upper,
+            if degrees {
+                "store radians if these are degrees"
+            } else {
+                "check the order of the joint names, and that the URDF is this robot's"
+            }
+        ));
+    }
+    if !robot.assumed_joints.is_empty() {
+        advice.push(format!(
+            "joint {} outside the arm's chain not recorded: taken at the lower limit",
+            robot.assumed_joints.join(", ")
+        ));
+    }
+}
+
+fn configurations(info: &Info, advice: &mut Vec<String>) {
+    let count = info.configurations.len();
+    if count < FEWEST {
+        advice.push(format!(
+            "{count} arm configurations are too few: record at least {FEWEST}, better {ENOUGH} or \
+             more, far apart, the arm at rest in each"
+        ));
+    } else if count < ENOUGH {
+        advice.push(format!("{count} arm configurations will do; {ENOUGH} or more are better"));
+    }
+    let dropped: usize = info.frames.dropped.values().sum();
+    let moving = info.frames.dropped.get("moving").copied().unwrap_or(0);
+    if moving > 0 && 10 * moving > 9 * (dropped + info.frames.used) {
+        advice.push(
+            "the arm moves in nearly all frames: let it rest for a second or two in every \
+             configuration"
+                .to_owned(),
+        );
+    }
+    let stale = info.frames.dropped.get("no_joint_state_near").copied().unwrap_or(0);
+    if stale > 0 {
+        advice.push(format!(
+            "{stale} frames have no joint state near: record joint states all the time, and let \
+             both computers keep the same time"
+        ));
+    }
+}
+
+fn depth(info: &Info, advice: &mut Vec<String>) {
+    let depth = &info.depth;
+    if depth.share_valid < LITTLE_DEPTH {
+        advice.push(format!(
+            "only {:.0} % of the pixels have depth: check exposure, distance and the depth mode",
+            100.0 * depth.share_valid
+        ));
+    }
+    let [near, _, far] = depth.range_m.unwrap_or_default();
+    if depth.range_m.is_some() && (far < PLAUSIBLE_M.0 || near > PLAUSIBLE_M.1) {
+        advice.push(format!(
+            "depth lies between {near:.3} and {far:.3} m, which no camera before an arm sees: \
+             check the unit"
+        ));
+    }
+}
+
+fn clock(info: &Info, advice: &mut Vec<String>) {
+    let Some(clock) = info.clock else { return };
+    if clock.applied {
+        advice.push(format!(
+            "depth and joints are stamped by clocks {:.3} s apart, which was made up for to {:.3} s: \
+             stamp both by one clock",
+            clock.offset_s.abs(),
+            clock.uncertainty_s
+        ));
+    } else if clock.offset_s.abs() > LATE_S {
+        let later = if clock.offset_s > 0.0 { "depth" } else { "joint states" };
+        advice.push(format!(
+            "{later} came {:.2} s later after their stamps than the other: frames near motion are \
+             left out; synchronise the clocks if they are of two computers",
+            clock.offset_s.abs()
+        ));
+    }
+}
