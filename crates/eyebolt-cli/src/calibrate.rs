@@ -141,18 +141,22 @@ fn arm(arguments: &Arguments, recording: &Folder) -> Result<Arm> {
             file.display()
         );
     };
-    let variable = |name| std::env::var(name).ok();
-    let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
-    let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
-    let flags = arguments.package_path.iter();
-    let packages = flags.fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag));
-    let robot = Robot::from_urdf_file(urdf, &packages.then(environment))?;
+    let robot = Robot::from_urdf_file(urdf, &packages(&arguments.package_path))?;
     // The recording's links are those of the robot it names, not of another given instead.
     let other = arguments.robot.is_some();
     let known = |link: &&String| !other || robot.link_index(link).is_some();
     let base = arguments.base.as_ref().or(section.base.as_ref().filter(known));
     let hand = arguments.end_effector.as_ref().or(section.end_effector.as_ref().filter(known));
     Ok(robot.arm(base.map(String::as_str), hand.map(String::as_str))?)
+}
+
+/// The packages that flags name, then those that the environment does.
+pub fn packages(flags: &[String]) -> PackageRoots {
+    let variable = |name| std::env::var(name).ok();
+    let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
+    let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
+    let named = flags.iter().fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag));
+    named.then(environment)
 }
 
 fn cache(arguments: &Arguments) -> LinkCache {

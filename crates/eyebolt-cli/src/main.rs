@@ -1,6 +1,7 @@
 //! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
 
 mod calibrate;
+mod export;
 mod output;
 mod progress;
 mod summary;
@@ -22,6 +23,8 @@ struct Arguments {
 enum Command {
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(calibrate::Arguments),
+    /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
+    Export(export::Arguments),
 }
 
 /// How a command that ran to its end turned out.
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
     let Arguments { command } = Arguments::parse();
     let ending = match command {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,
