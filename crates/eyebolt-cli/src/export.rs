@@ -26,7 +26,8 @@ A camera whose driver publishes camera_link -> ... -> optical frame on /tf_stati
   and give it as --camera-tree; then the pose of the root of the driver's frames is exported, and
   all the others follow:
 
-    timeout 5 ros2 topic echo --full-length --qos-durability transient_local /tf_static > tf.yaml
+    timeout -s INT 5 ros2 topic echo --full-length --qos-durability transient_local \\
+        /tf_static > tf.yaml
     eyebolt export calibration.json --as ros2-launch --camera-tree tf.yaml -o camera.launch.py
 
   The publisher of an earlier calibration must not run meanwhile. With the robot's frames in the

@@ -54,8 +54,7 @@ pub fn read(format: Format, placement: &Placement) -> Read {
 
 /// The joint in a robot that has the parent's link.
 fn urdf(text: &str, parent: &str) -> Read {
-    let escaped = xml_attribute(text, "link");
-    assert_eq!(escaped, parent, "the first link named is the parent's");
+    assert_eq!(xml_attribute(text, "link"), parent, "the first link that the joint names");
     let raw = text.split("parent link=\"").nth(1).unwrap().split('"').next().unwrap();
     let whole = text.replacen("<link", &format!("<link name=\"{raw}\"/><link"), 1);
     let robot = Robot::from_urdf_str(&whole, None, &PackageRoots::new()).unwrap();

@@ -200,4 +200,19 @@ proptest! {
         prop_assert!((get("link", "eye_optical") - down.matrix()).amax() < 1e-15 * size);
         prop_assert!((get("world", "base") * get("base", "imu") - expected).amax() < 1e-14 * size);
     }
+
+    /// By the text of a message, too.
+    #[test]
+    fn poses_survive_their_text(pose in pose()) {
+        let ([x, y, z], [qx, qy, qz, qw]) = (pose.translation_m().into(), pose.rotation_xyzw());
+        let text = format!(
+            "transforms: [{{header: {{frame_id: a}}, child_frame_id: b, transform: {{translation: \
+             {{x: {x:?}, y: {y:?}, z: {z:?}}}, \
+             rotation: {{x: {qx:?}, y: {qy:?}, z: {qz:?}, w: {qw:?}}}}}}}]"
+        );
+        let tree = StaticTree::from_tf_message("tf.yaml", &text).unwrap();
+        let placement = find(&tree, &pair("a", "b")).unwrap();
+        let off = (placement.parent_from_child.matrix() - pose.matrix()).amax();
+        prop_assert!(off < 1e-15, "{off:e}");
+    }
 }

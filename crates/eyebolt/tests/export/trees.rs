@@ -1,10 +1,8 @@
 //! Static transforms: which make trees, and from which files they are read.
 
-use crate::poses::{config, pose};
 use eyebolt::export::{FrameName, Named, StaticEdge, StaticTree};
 use eyebolt_geometry::Transform;
 use eyebolt_robot::PackageRoots;
-use proptest::prelude::*;
 use std::fs;
 
 pub fn edge(parent: &str, child: &str, pose: Transform<Named, Named>) -> StaticEdge {
@@ -179,20 +177,4 @@ fn a_urdf_gives_its_fixed_joints() {
     fs::write(&path, ECHO).unwrap();
     let tree = StaticTree::read(&path, &PackageRoots::new()).unwrap();
     assert_eq!(parent(&tree, "eye_optical"), Some("camera_depth_frame"));
-}
-
-proptest! {
-    #![proptest_config(config(64))]
-
-    /// What is written as a hand-eye file of ROS is read as tf reads it.
-    #[test]
-    fn numbers_survive(pose in pose()) {
-        let ([x, y, z], [qx, qy, qz, qw]) = (pose.translation_m().into(), pose.rotation_xyzw());
-        let text = format!(
-            "transforms: [{{header: {{frame_id: a}}, child_frame_id: b, transform: {{translation: \
-             {{x: {x:?}, y: {y:?}, z: {z:?}}}, rotation: {{x: {qx:?}, y: {qy:?}, z: {qz:?}, w: {qw:?}}}}}}}]"
-        );
-        let tree = StaticTree::from_tf_message("tf.yaml", &text).unwrap();
-        prop_assert_eq!(parent(&tree, "b"), Some("a"));
-    }
 }
