@@ -38,7 +38,7 @@ impl FrameName {
     ///
     /// # Errors
     /// A name that is empty or longer than 256 bytes, has a control character or a line break,
-    /// starts with a dash, or has `:=` or `$(` in it.
+    /// starts with a dash, or has `:=`, `$(` or `${` in it.
     pub fn new(name: &str) -> Result<Self, BadFrameName> {
         let bare = name.strip_prefix('/').unwrap_or(name);
         match problem(bare) {
@@ -72,8 +72,8 @@ fn problem(name: &str) -> Option<&'static str> {
         Some("programs would take the dash at its front for an option")
     } else if name.contains(":=") {
         Some("ROS would take := for a remapping")
-    } else if name.contains("$(") {
-        Some("roslaunch would replace what follows $(")
+    } else if name.contains("$(") || name.contains("${") {
+        Some("roslaunch or xacro would replace what follows the $")
     } else {
         None
     }

@@ -76,6 +76,7 @@ fn what_is_no_name_is_refused_with_a_reason() {
         ("/--help", "option"),
         ("a:=b", "remapping"),
         ("$(env HOME)", "roslaunch"),
+        ("${1 + 1}", "xacro"),
         (&long, "256"),
     ];
     for (name, word) in cases {

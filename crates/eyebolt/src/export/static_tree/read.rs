@@ -20,12 +20,13 @@ impl StaticTree {
     /// A file that cannot be read, is neither of the two, or whose transforms make no trees: see
     /// [`StaticTree::from_edges`].
     pub fn read(path: &Path, packages: &PackageRoots) -> Result<Self, ExportError> {
+        let file = path.display().to_string();
         let text = read_text(path, MAX_URDF_BYTES)?;
         if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
             drop(text);
-            return Self::from_robot(&Robot::from_urdf_file(path, packages)?, path);
+            return Self::from_robot(&file, &Robot::from_urdf_file(path, packages)?);
         }
-        Self::from_tf_message(&path.display().to_string(), &text)
+        Self::from_tf_message(&file, &text)
     }
 
     /// The transforms in the text of one or more `tf2_msgs/TFMessage`s; `file` is for messages.
@@ -40,7 +41,11 @@ impl StaticTree {
         Self::from_edges(file, tf_message::edges(file, text)?)
     }
 
-    fn from_robot(robot: &Robot, path: &Path) -> Result<Self, ExportError> {
+    /// The fixed joints of `robot`, which came from `source` (for messages).
+    ///
+    /// # Errors
+    /// See [`StaticTree::from_edges`].
+    pub fn from_robot(source: &str, robot: &Robot) -> Result<Self, ExportError> {
         let fixed = robot.joints.iter().filter(|joint| !joint.moves());
         let edges = fixed.filter_map(|joint| {
             let name = |link: usize| Some(robot.links.get(link)?.name.clone());
@@ -51,7 +56,7 @@ impl StaticTree {
                 parent_from_child: Transform::from_isometry(*pose.isometry()),
             })
         });
-        let tree = Self::from_edges(&path.display().to_string(), edges.collect())?;
+        let tree = Self::from_edges(source, edges.collect())?;
         Ok(Self { moves: robot.joints.iter().any(eyebolt_robot::Joint::moves), ..tree })
     }
 }
