@@ -173,12 +173,17 @@ impl RobotArguments {
     }
 
     fn packages(&self) -> PackageRoots {
-        let variable = |name| std::env::var(name).ok();
-        let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
-        let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
-        let flags = self.package_path.iter();
-        flags.fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag)).then(environment)
+        packages(&self.package_path)
     }
+}
+
+/// The packages that flags name, then those that the environment does.
+pub fn packages(flags: &[String]) -> PackageRoots {
+    let variable = |name| std::env::var(name).ok();
+    let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
+    let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
+    let named = flags.iter().fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag));
+    named.then(environment)
 }
 
 /// Where shapes of links are kept between runs.

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod convert;
+mod export;
 mod info;
 mod inputs;
 mod output;
@@ -29,6 +30,8 @@ enum Command {
     Info(info::Arguments),
     /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
     Convert(convert::Arguments),
+    /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
+    Export(export::Arguments),
 }
 
 /// How a command that ran to its end turned out.
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

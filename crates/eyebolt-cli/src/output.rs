@@ -10,6 +10,18 @@ pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
+/// Writes what the program was run for to standard output. A reader that has gone away is no error;
+/// a full disk is.
+pub fn deliver(bytes: &[u8]) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(anyhow!("standard output: cannot write: {}", error.kind()))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Says something on standard error.
 pub fn complain(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");

@@ -2,6 +2,7 @@
 
 pub mod answer;
 pub mod calibrate;
+pub mod export;
 pub mod info;
 pub mod label;
 pub mod pipeline;

@@ -1,0 +1,117 @@
+//! `eyebolt export`.
+
+use crate::Ending;
+use crate::inputs::packages;
+use crate::output;
+use anyhow::Result;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use eyebolt::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
+use std::path::PathBuf;
+
+/// Which transform is exported, for people who know tf.
+const FRAMES: &str = "\
+Direction:
+  Every format tells the pose of the child frame in the parent frame, which maps coordinates in the
+  child to coordinates in the parent: base_from_camera, not camera_from_base. That is what tf means
+  by a transform from frame_id (parent) to child_frame_id. Metres, radians.
+
+Optical frame, body frame:
+  The calibration is for the depth OPTICAL frame: x right, y down, z forward. The body frame that
+  drivers call camera_link (x forward, y left, z up) is another: name it with --child-frame and
+  give the transforms in between with --camera-tree. There is no guessing: they differ by camera.
+
+A camera whose driver publishes camera_link -> ... -> optical frame on /tf_static:
+  A frame of tf has one parent. Published as base -> optical frame, the calibration would give the
+  optical frame a second one, and tf would jump between the two. Store what the driver publishes
+  and give it as --camera-tree; then the pose of the root of the driver's frames is exported, and
+  all the others follow:
+
+    timeout -s INT 5 ros2 topic echo --full-length --qos-durability transient_local \\
+        /tf_static > tf.yaml
+    eyebolt export calibration.json --as ros2-launch --camera-tree tf.yaml -o camera.launch.py
+
+  The publisher of an earlier calibration must not run meanwhile. With the robot's frames in the
+  file too, --parent-frame may be any frame that does not move against the base, such as world.
+
+Exit status: 0 exported, 1 something could not be read, exported or written, 2 wrong usage.";
+
+/// Options of `eyebolt export`.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = FRAMES)]
+pub struct Arguments {
+    /// Calibration that `eyebolt calibrate` wrote
+    #[arg(value_name = "CALIBRATION.JSON")]
+    calibration: PathBuf,
+    /// What to write; all tell the pose of the child (camera) in the parent (base)
+    #[arg(long = "as", value_name = "FORMAT", value_parser = format())]
+    format: Format,
+    /// Where to write it; otherwise to standard output. The hand-eye formats take their name from it
+    #[arg(short, long, value_name = "FILE", required_if_eq("format", "npy"))]
+    output: Option<PathBuf>,
+    /// Replace an existing file
+    #[arg(long)]
+    force: bool,
+    /// Parent frame [default: the base link of the calibration]
+    #[arg(long, visible_alias = "base-frame", value_name = "FRAME")]
+    parent_frame: Option<String>,
+    /// Child frame [default: the depth optical frame, or the root of the camera's frames where
+    /// --camera-tree gives the optical frame a parent]
+    #[arg(long, visible_alias = "camera-frame", value_name = "FRAME")]
+    child_frame: Option<String>,
+    /// Name of the depth optical frame, if the calibration has none or another
+    #[arg(long, value_name = "FRAME")]
+    optical_frame: Option<String>,
+    /// Static transforms of the camera, the robot or both: /tf_static as `ros2 topic echo` prints it
+    /// (YAML or JSON), or a URDF, of which the fixed joints count
+    #[arg(long, value_name = "FILE")]
+    camera_tree: Option<PathBuf>,
+    /// Where package:// leads in a URDF: a folder of packages, or NAME=FOLDER; may be repeated.
+    /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too
+    #[arg(long, value_name = "[NAME=]FOLDER")]
+    package_path: Vec<String>,
+    /// Export the pose of a calibration that was refused: it is not to be trusted
+    #[arg(long)]
+    even_if_refused: bool,
+}
+
+fn format() -> impl TypedValueParser<Value = Format> {
+    let named =
+        |format: &Format| PossibleValue::new(format.name()).help(format.summary().to_owned());
+    PossibleValuesParser::new(Format::ALL.iter().map(named)).try_map(|name| {
+        Format::ALL.into_iter().find(|format| format.name() == name).ok_or("not a format")
+    })
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    if let Some(path) = &arguments.output {
+        output::refuse_existing(path, arguments.force)?;
+    }
+    let calibration = SavedCalibration::read(&arguments.calibration)?;
+    let tree = match &arguments.camera_tree {
+        Some(path) => StaticTree::read(path, &packages(&arguments.package_path))?,
+        None => StaticTree::empty(),
+    };
+    let wanted = Wanted {
+        parent: arguments.parent_frame.as_deref(),
+        child: arguments.child_frame.as_deref(),
+        optical: arguments.optical_frame.as_deref(),
+        even_if_refused: arguments.even_if_refused,
+    };
+    let placement = Placement::find(&calibration, &tree, &wanted)?;
+    for note in &placement.notes {
+        output::complain(&format!("note: {note}"));
+    }
+    let stem = arguments.output.as_ref().and_then(|path| path.file_stem());
+    let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());
+    let bytes = arguments.format.write(&placement, &name);
+    match &arguments.output {
+        None => output::deliver(&bytes)?,
+        Some(path) => {
+            output::write_whole(path, &bytes, arguments.force)?;
+            let Placement { parent, child, .. } = &placement;
+            output::say(&format!("pose of {child} in {parent}, written to {}", path.display()));
+        }
+    }
+    Ok(Ending::Done)
+}
