@@ -46,7 +46,7 @@ pub struct Arguments {
     #[arg(long = "as", value_name = "FORMAT", value_parser = format())]
     format: Format,
     /// Where to write it; otherwise to standard output. The hand-eye formats take their name from it
-    #[arg(short, long, value_name = "FILE", required_if_eq("format", "npy"))]
+    #[arg(short, long, value_name = "FILE", required_if_eq_any([("format", "npy"), ("format", "mcap")]))]
     output: Option<PathBuf>,
     /// Replace an existing file
     #[arg(long)]
@@ -61,8 +61,8 @@ pub struct Arguments {
     /// Name of the depth optical frame, if the calibration has none or another
     #[arg(long, value_name = "FRAME")]
     optical_frame: Option<String>,
-    /// Static transforms of the camera, the robot or both: /tf_static as `ros2 topic echo` prints it
-    /// (YAML or JSON), or a URDF, of which the fixed joints count
+    /// Static transforms of the camera, the robot or both: a bag with /tf_static, that topic as
+    /// `ros2 topic echo` prints it (YAML or JSON), or a URDF, of which the fixed joints count
     #[arg(long, value_name = "FILE")]
     camera_tree: Option<PathBuf>,
     /// Where package:// leads in a URDF: a folder of packages, or NAME=FOLDER; may be repeated.
@@ -89,7 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     let calibration = SavedCalibration::read(&arguments.calibration)?;
     let tree = match &arguments.camera_tree {
-        Some(path) => StaticTree::read(path, &packages(&arguments.package_path))?,
+        Some(path) => {
+            StaticTree::read(path, &packages(&arguments.package_path), &std::env::temp_dir())?
+        }
         None => StaticTree::empty(),
     };
     let wanted = Wanted {

@@ -10,8 +10,22 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
     // Writing to a string cannot fail.
     let _ = verdict(&mut text, answer);
     let _ = evidence(&mut text, answer);
-    for line in answer.configurations.iter().filter_map(frame_line) {
-        let _ = writeln!(text, "  {line}");
+    for line in answer.configurations.chunk_by(|a, b| a.configuration == b.configuration) {
+        let _ = line
+            .first()
+            .and_then(|first| frame_line(first, line.len()))
+            .map_or(Ok(()), |line| writeln!(text, "  {line}"));
+    }
+    for (reason, count) in &answer.frames_left_out {
+        let _ = writeln!(text, "  {count} frames left out: {}", reason.replace('_', " "));
+    }
+    if answer.spare_configurations > 0 {
+        let count = answer.spare_configurations;
+        let _ = writeln!(text, "  {count} more configurations not needed (--max-configurations)");
+    }
+    if let Some(seconds) = answer.clock_offset_s {
+        let _ =
+            writeln!(text, "  clocks of depth and joints are {seconds:.3} s apart: made up for");
     }
     if !answer.assumed_joints.is_empty() {
         let joints = answer.assumed_joints.join(", ");
@@ -73,8 +87,11 @@ fn evidence(text: &mut String, answer: &Answer) -> std::fmt::Result {
     Ok(())
 }
 
-fn frame_line(frame: &FrameOutcome) -> Option<String> {
+/// What became of a configuration of `count` frames, of which `frame` is the first.
+fn frame_line(frame: &FrameOutcome, count: usize) -> Option<String> {
     let residual = frame.residual_mm.map(|mm| format!("residual {mm:.1} mm"));
     let parts: Vec<String> = residual.into_iter().chain(frame.reason.clone()).collect();
-    (!parts.is_empty()).then(|| format!("frame {:<12} {}", frame.name, parts.join(", ")))
+    let more = if count > 1 { format!(" (+{})", count - 1) } else { String::new() };
+    let name = format!("{}{more}", frame.name);
+    (!parts.is_empty()).then(|| format!("frame {name:<12} {}", parts.join(", ")))
 }

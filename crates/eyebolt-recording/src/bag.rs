@@ -7,8 +7,8 @@ mod ros1;
 mod sqlite;
 mod zstd;
 
-pub use open::BagKind;
-pub(crate) use open::{Bag, Locator, looks_like_bag};
+pub(crate) use open::{Bag, Locator};
+pub use open::{BagKind, is_bag};
 
 use crate::error::RecordingError;
 

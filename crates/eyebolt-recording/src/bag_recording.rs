@@ -178,11 +178,6 @@ impl BagRecording {
         self.bag.kind()
     }
 
-    /// Transforms of `/tf_static`, the last for each child.
-    pub fn static_transforms(&self) -> &[StaticTransform] {
-        &self.scan.static_transforms
-    }
-
     /// Damaged parts that were passed over.
     pub fn damage(&self) -> &[RecordingError] {
         &self.scan.damage
@@ -383,6 +378,19 @@ pub fn list_topics(path: &Path, options: &BagOptions) -> Result<Vec<TopicSummary
     let bag = Bag::open(path, options.scratch())?;
     let scan = Scan::new(&bag, options.partial)?;
     Ok(scan.topics.iter().map(|topic| summary(topic, None)).collect())
+}
+
+/// The transforms on `/tf_static` of the bag at `path`, the last for each child.
+///
+/// # Errors
+///
+/// A file that cannot be read or is damaged (unless `partial` is asked for).
+pub fn static_transforms(
+    path: &Path,
+    options: &BagOptions,
+) -> Result<Vec<StaticTransform>, RecordingError> {
+    let bag = Bag::open(path, options.scratch())?;
+    Ok(Scan::new(&bag, options.partial)?.static_transforms)
 }
 
 fn summary(topic: &TopicScan, role: Option<&'static str>) -> TopicSummary {

@@ -60,9 +60,10 @@ mod write;
 /// Name of the metadata record with what eyebolt knows of a recording that it wrote.
 pub(crate) const METADATA_NAME: &str = "eyebolt";
 
-pub use bag::BagKind;
+pub use bag::{BagKind, is_bag};
 pub use bag_recording::{
     BagOptions, BagRecording, ClockOffset, DropReason, DroppedFrame, TopicSummary, list_topics,
+    static_transforms,
 };
 pub use camera_info::CameraInfo;
 pub use color::ColorImage;

@@ -1,6 +1,6 @@
 //! A recording, whatever it is stored in.
 
-use crate::bag::looks_like_bag;
+use crate::bag::is_bag;
 use crate::bag_recording::{BagOptions, BagRecording};
 use crate::color::ColorImage;
 use crate::error::RecordingError;
@@ -30,7 +30,7 @@ impl Recording {
     /// Neither kind is there, or what [`Folder::open`] and [`BagRecording::open`] report.
     pub fn open(path: &Path, options: &BagOptions) -> Result<Self, RecordingError> {
         let described = path.is_dir() && path.join(MANIFEST).exists();
-        if !described && looks_like_bag(path) {
+        if !described && is_bag(path) {
             return BagRecording::open(path, options).map(|bag| Self::Bag(Box::new(bag)));
         }
         Folder::open(path).map(Self::Folder)

@@ -106,7 +106,7 @@ impl PackageRoots {
     }
 
     /// The file that `url` means: `package://`, `model://`, `file://`, or a path, which is relative
-    /// to `directory`, the folder of the URDF. The file exists; nothing of it is read.
+    /// to `directory`, the folder of the URDF, or to a folder given. The file exists; nothing of it is read.
     ///
     /// # Errors
     /// See [`ResolveError`].
@@ -124,26 +124,34 @@ impl PackageRoots {
                 existing(url, vec![path], "correct the path in the URDF")
             }
             Some(_) => Err(unsupported("only package://, model:// and file:// are read")),
-            None if directory.is_none() && Path::new(url).is_relative() => {
-                self.resolve_homeless(url)
-            }
-            None => {
-                let place = directory.unwrap_or(Path::new("")).join(url);
-                existing(url, vec![place], "put the file there or correct the path in the URDF")
-            }
+            None => self.resolve_path(url, directory),
         }
     }
 
-    /// A relative path in a description that came without a folder, as from a topic: it is looked
-    /// up in the folders given.
-    fn resolve_homeless(&self, url: &str) -> Result<PathBuf, ResolveError> {
-        if !stays_inside(url) {
+    /// A path: from the folder of the URDF, else from the folders given, where a description from a
+    /// topic or a copied one has its meshes.
+    fn resolve_path(&self, url: &str, directory: Option<&Path>) -> Result<PathBuf, ResolveError> {
+        if Path::new(url).is_absolute() {
+            let remedy = "put the file there or correct the path in the URDF";
+            return existing(url, vec![PathBuf::from(url)], remedy);
+        }
+        let mut places: Vec<PathBuf> = directory.map(|d| d.join(url)).into_iter().collect();
+        if stays_inside(url) {
+            let named = self.named.iter().map(|(_, directory)| directory);
+            places.extend(named.chain(&self.search).map(|root| root.join(url)));
+        } else if directory.is_none() {
             return Err(ResolveError::Escapes { url: url.to_owned() });
         }
-        let named = self.named.iter().map(|(_, directory)| directory);
-        let places = named.chain(&self.search).map(|root| root.join(url)).collect();
-        let remedy = "the description came without a folder: give the one that this path starts \
-                      in with --package-path FOLDER, or the URDF as a file with --robot FILE";
+        let remedy = match directory {
+            Some(_) => {
+                "put the file there, or give the folder that this path starts in with \
+                        --package-path FOLDER"
+            }
+            None => {
+                "the description came without a folder: give the one that this path starts in \
+                     with --package-path FOLDER, or the URDF as a file with --robot FILE"
+            }
+        };
         existing(url, places, remedy)
     }
 

@@ -3,6 +3,7 @@
 
 use eyebolt_robot::{PackageRoots, ResolveError, Robot, RobotError, Shape};
 use std::fs;
+use std::path::Path;
 use std::path::{Path, PathBuf};
 
 /// Writes an empty file and the folders above it.
@@ -59,6 +60,21 @@ fn file_urls_and_paths() {
         let error = roots.resolve(url, Some(Path::new("."))).unwrap_err();
         assert!(matches!(error, ResolveError::Unsupported { .. }), "{url}: {error}");
     }
+}
+
+#[test]
+fn a_description_without_a_folder_finds_its_meshes_in_those_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = touch(folder.path().join("meshes/a.stl"));
+    let roots = PackageRoots::new().with_argument(folder.path().to_str().unwrap());
+    assert_eq!(roots.resolve("meshes/a.stl", None).unwrap(), file);
+    // A copy of the URDF elsewhere, too.
+    assert_eq!(roots.resolve("meshes/a.stl", Some(Path::new("/nowhere"))).unwrap(), file);
+    let inner = PackageRoots::new().with_directory(folder.path().join("meshes"));
+    let error = inner.resolve("../meshes/a.stl", None).unwrap_err();
+    assert!(matches!(error, ResolveError::Escapes { .. }), "{error}");
+    let error = roots.resolve("meshes/b.stl", None).unwrap_err().to_string();
+    assert!(error.contains("--package-path") && error.contains("--robot"), "{error}");
 }
 
 #[test]

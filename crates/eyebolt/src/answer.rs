@@ -5,6 +5,7 @@
 //! `w >= 0`.
 
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
+use crate::info::left_out;
 use crate::pipeline::{Outcome, Request};
 use crate::session::{ImageSource, Session};
 use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
@@ -56,6 +57,15 @@ pub struct Answer {
     pub outline_excess_px: Option<f64>,
     /// One for each frame of the recording, frames of one configuration together.
     pub configurations: Vec<FrameOutcome>,
+    /// How many frames of a bag did not take part, by reason: `moving`, `no_joint_state_near`...
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub frames_left_out: BTreeMap<&'static str, usize>,
+    /// How many configurations were left out because the others differ more.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub spare_configurations: usize,
+    /// What was added to stamps of depth for the clock of the joints, seconds, if that was needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clock_offset_s: Option<f64>,
     /// What was used as image: `depth_images`; `organised_clouds`, whose grid tells the camera;
     /// `projected_clouds`, drawn with the recording's camera; `drawn_clouds`, with a made-up one.
     pub image_source: Option<&'static str>,
@@ -197,6 +207,14 @@ impl Answer {
             depth_scale_error: refinement.map(|refinement| refinement.depth_scale),
             outline_excess_px: refinement.map(|refinement| refinement.outline_px),
             configurations: frame_outcomes(calibration),
+            frames_left_out: left_out(request.recording),
+            spare_configurations: session.map_or(0, |session| session.spare_configurations),
+            clock_offset_s: request
+                .recording
+                .bag()
+                .and_then(|bag| bag.clock_offset())
+                .filter(|offset| offset.applied)
+                .map(|offset| offset.seconds),
             image_source: session.map(|session| source_name(&session.source)),
             intrinsics: session
                 .filter(|session| session.source != ImageSource::DrawnClouds)
@@ -218,6 +236,10 @@ impl Answer {
         text.push('\n');
         text
     }
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 fn frames(request: &Request<'_>) -> Frames {

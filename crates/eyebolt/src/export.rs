@@ -16,6 +16,7 @@ mod file;
 mod format;
 mod frame_name;
 mod graph;
+mod mcap;
 mod moveit;
 mod note;
 mod npy;

@@ -231,10 +231,6 @@ fn all_joints(recording: &Recording) -> Result<Vec<String>, RecordingError> {
 fn frames(recording: &Recording) -> Frames {
     let bag = recording.bag();
     let all = bag.map(|bag| bag.dropped_frames()).unwrap_or_default();
-    let mut dropped = BTreeMap::new();
-    for frame in all {
-        *dropped.entry(reason(&frame.reason)).or_default() += 1;
-    }
     let listed = all.iter().take(MOST_LISTED).map(|frame| Dropped {
         frame: frame.index,
         stamp_s: frame.stamp_s,
@@ -243,10 +239,19 @@ fn frames(recording: &Recording) -> Frames {
     });
     Frames {
         used: recording.frame_names().len(),
-        dropped,
+        dropped: left_out(recording),
         dropped_frames: listed.collect(),
         motion_limit_deg: bag.map(|bag| bag.motion_limit().to_degrees()),
     }
+}
+
+/// How many frames of a bag do not take part, by reason.
+pub fn left_out(recording: &Recording) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for frame in recording.bag().map(|bag| bag.dropped_frames()).unwrap_or_default() {
+        *counts.entry(reason(&frame.reason)).or_default() += 1;
+    }
+    counts
 }
 
 /// One word for a reason.

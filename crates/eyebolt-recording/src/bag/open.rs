@@ -62,8 +62,9 @@ pub(crate) struct Bag {
 /// Name of the file that ROS 2 puts beside the files of a bag.
 const METADATA: &str = "metadata.yaml";
 
-/// Whether `path` is a folder or file that [`Bag::open`] should be given.
-pub(crate) fn looks_like_bag(path: &Path) -> bool {
+/// Whether there is a bag at `path`, by its first bytes; of a folder, whether a file in it is called
+/// like one.
+pub fn is_bag(path: &Path) -> bool {
     if path.is_dir() { !files_in(path).is_empty() } else { magic(path).is_some() }
 }
 

@@ -9,6 +9,9 @@ use std::io;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
+    /// A bag of transforms cannot be read.
+    #[error(transparent)]
+    Bag(#[from] eyebolt_recording::RecordingError),
     /// The operating system would not give the file.
     #[error("{file}: cannot read: {cause}. Check that the file exists and may be read")]
     Read {

@@ -1,7 +1,7 @@
 //! The forms in which a placement can be written.
 
 use super::placement::Placement;
-use super::{csv, easy_handeye, easy_handeye2, moveit, npy, ros2_launch, tf2, urdf};
+use super::{csv, easy_handeye, easy_handeye2, mcap, moveit, npy, ros2_launch, tf2, urdf};
 
 /// A form in which a placement can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,11 +27,13 @@ pub enum Format {
     Csv,
     /// Matrix of NumPy.
     Npy,
+    /// `/tf_static` of ROS 2 in MCAP.
+    Mcap,
 }
 
 impl Format {
     /// All of them, those most in use first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Tf2,
         Self::Tf2Ros1,
         Self::Ros2Launch,
@@ -42,6 +44,7 @@ impl Format {
         Self::Urdf,
         Self::Csv,
         Self::Npy,
+        Self::Mcap,
     ];
 
     /// What a person calls it.
@@ -57,6 +60,7 @@ impl Format {
             Self::Urdf => "urdf",
             Self::Csv => "csv",
             Self::Npy => "npy",
+            Self::Mcap => "mcap",
         }
     }
 
@@ -81,10 +85,12 @@ impl Format {
             }
             Self::Csv => "4 x 4 matrix that maps child to parent: a row a line, metres, no header",
             Self::Npy => "The same matrix for numpy.load: float64, C order; needs --output",
+            Self::Mcap => "/tf_static in an MCAP for Foxglove or ros2 bag; needs --output",
         }
     }
 
-    /// The placement in this form: UTF-8 text that ends with a line break, but for [`Format::Npy`].
+    /// The placement in this form: UTF-8 text that ends with a line break, but for
+    /// [`Format::Npy`] and [`Format::Mcap`].
     ///
     /// `name` is what the file of a hand-eye calibration calls itself; characters that ROS does not
     /// allow in names become underscores.
@@ -100,6 +106,7 @@ impl Format {
             Self::Urdf => urdf::write(placement),
             Self::Csv => csv::write(placement),
             Self::Npy => return npy::write(placement),
+            Self::Mcap => return mcap::write(placement),
         };
         text.into_bytes()
     }

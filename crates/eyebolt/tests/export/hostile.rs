@@ -82,13 +82,16 @@ fn files_are_read_up_to_their_limit() {
     let error = SavedCalibration::read(&path).unwrap_err().to_string();
     assert!(error.contains("larger than 16 MiB"), "{error}");
     fs::write(&path, "#".repeat(usize::try_from(MAX_TREE_BYTES).unwrap() + 1)).unwrap();
-    let error = StaticTree::read(&path, &PackageRoots::new()).unwrap_err().to_string();
+    let error =
+        StaticTree::read(&path, &PackageRoots::new(), Path::new(".")).unwrap_err().to_string();
     assert!(error.contains("larger than 1 MiB"), "{error}");
     fs::write(&path, b"transforms: \xff").unwrap();
-    let error = StaticTree::read(&path, &PackageRoots::new()).unwrap_err().to_string();
+    let error =
+        StaticTree::read(&path, &PackageRoots::new(), Path::new(".")).unwrap_err().to_string();
     assert!(error.contains("byte 12 is not UTF-8"), "{error}");
     fs::write(&path, "<robot").unwrap();
-    let error = StaticTree::read(&path, &PackageRoots::new()).unwrap_err().to_string();
+    let error =
+        StaticTree::read(&path, &PackageRoots::new(), Path::new(".")).unwrap_err().to_string();
     assert!(error.contains("not plain XML"), "{error}");
     let nowhere = SavedCalibration::read(Path::new("no/such.json")).unwrap_err().to_string();
     assert!(nowhere.contains("no/such.json") && nowhere.contains("Check"), "{nowhere}");

@@ -4,6 +4,7 @@ use eyebolt::export::{FrameName, Named, StaticEdge, StaticTree};
 use eyebolt_geometry::Transform;
 use eyebolt_robot::PackageRoots;
 use std::fs;
+use std::path::Path;
 
 pub fn edge(parent: &str, child: &str, pose: Transform<Named, Named>) -> StaticEdge {
     StaticEdge { parent: parent.to_owned(), child: child.to_owned(), parent_from_child: pose }
@@ -172,9 +173,9 @@ fn a_urdf_gives_its_fixed_joints() {
         <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
         </robot>"#;
     fs::write(&path, urdf).unwrap();
-    let tree = StaticTree::read(&path, &PackageRoots::new()).unwrap();
+    let tree = StaticTree::read(&path, &PackageRoots::new(), Path::new(".")).unwrap();
     assert_eq!((parent(&tree, "base"), parent(&tree, "arm")), (Some("world"), None));
     fs::write(&path, ECHO).unwrap();
-    let tree = StaticTree::read(&path, &PackageRoots::new()).unwrap();
+    let tree = StaticTree::read(&path, &PackageRoots::new(), Path::new(".")).unwrap();
     assert_eq!(parent(&tree, "eye_optical"), Some("camera_depth_frame"));
 }

@@ -4,6 +4,7 @@ use super::{StaticEdge, StaticTree, tf_message};
 use crate::export::error::ExportError;
 use crate::export::file::read_text;
 use eyebolt_geometry::Transform;
+use eyebolt_recording::{BagOptions, StaticTransform, is_bag, static_transforms};
 use eyebolt_robot::{MAX_URDF_BYTES, PackageRoots, Robot};
 use std::path::Path;
 
@@ -12,15 +13,18 @@ pub const MAX_TREE_BYTES: u64 = 1 << 20;
 
 impl StaticTree {
     /// Reads the file at `path`: `/tf_static` as `ros2 topic echo` or `rostopic echo` prints it
-    /// (YAML or JSON of `tf2_msgs/TFMessage`, several documents after each other), or a robot
-    /// description (URDF), of which the fixed joints count. `packages` tell where the meshes of a
-    /// URDF are.
+    /// (YAML or JSON of `tf2_msgs/TFMessage`, several documents after each other), a bag with that
+    /// topic, or a robot description (URDF), of which the fixed joints count. `packages` tell where
+    /// the meshes of a URDF are; compressed bags are decompressed to the folder `scratch`.
     ///
     /// # Errors
-    /// A file that cannot be read, is neither of the two, or whose transforms make no trees: see
+    /// A file that cannot be read, is none of these, or whose transforms make no trees: see
     /// [`StaticTree::from_edges`].
-    pub fn read(path: &Path, packages: &PackageRoots) -> Result<Self, ExportError> {
+    pub fn read(path: &Path, packages: &PackageRoots, scratch: &Path) -> Result<Self, ExportError> {
         let file = path.display().to_string();
+        if is_bag(path) {
+            return Self::from_edges(&file, bag_edges(&file, path, scratch)?);
+        }
         let text = read_text(path, MAX_URDF_BYTES)?;
         if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
             drop(text);
@@ -59,4 +63,21 @@ impl StaticTree {
         let tree = Self::from_edges(source, edges.collect())?;
         Ok(Self { moves: robot.joints.iter().any(eyebolt_robot::Joint::moves), ..tree })
     }
+}
+
+/// The transforms on `/tf_static` of a bag.
+fn bag_edges(file: &str, path: &Path, scratch: &Path) -> Result<Vec<StaticEdge>, ExportError> {
+    let options = BagOptions { scratch: scratch.to_path_buf(), ..BagOptions::default() };
+    let transforms = static_transforms(path, &options)?;
+    if transforms.is_empty() {
+        let remedy = "Record /tf_static too, or store what `ros2 topic echo` prints of it";
+        return Err(ExportError::invalid(file, "/tf_static", "there are no transforms", remedy));
+    }
+    let edges = transforms.into_iter().enumerate().map(|(index, transform)| {
+        let StaticTransform { parent, child, translation_m, rotation_xyzw } = transform;
+        let parent_from_child =
+            tf_message::pose(file, &format!("transforms[{index}]"), translation_m, rotation_xyzw)?;
+        Ok(StaticEdge { parent, child, parent_from_child })
+    });
+    edges.collect()
 }

@@ -2,6 +2,7 @@
 
 use super::StaticEdge;
 use crate::export::error::ExportError;
+use crate::export::frame_name::Named;
 use eyebolt_geometry::Transform;
 use serde::Deserialize;
 
@@ -76,22 +77,33 @@ fn edge(file: &str, index: usize, stamped: Stamped) -> Result<StaticEdge, Export
     let transform = stamped.transform.ok_or_else(|| absent("transform"))?;
     let t = transform.translation.ok_or_else(|| absent("transform.translation"))?;
     let q = transform.rotation.ok_or_else(|| absent("transform.rotation"))?;
-    let wrong = |name: &str, problem: &str, remedy: &str| {
-        Err(ExportError::invalid(file, field(name), problem, remedy))
-    };
-    if ![t.x, t.y, t.z].iter().all(|metres| metres.is_finite()) {
-        return wrong("transform.translation", "not a number", "Correct what is published");
-    }
-    // tf2 ignores a transform that misses this (QUATERNION_NORMALIZATION_TOLERANCE).
-    let squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    let pose = Transform::from_xyzw([t.x, t.y, t.z], [q.x, q.y, q.z, q.w]);
-    let Some(parent_from_child) = pose.filter(|_| (squared - 1.0).abs() < 1e-2) else {
-        let problem = "the quaternion is not of unit length, so tf2 ignores the transform";
-        return wrong("transform.rotation", problem, "Correct what is published");
-    };
+    let parent_from_child =
+        pose(file, &format!("transforms[{index}]"), [t.x, t.y, t.z], [q.x, q.y, q.z, q.w])?;
     Ok(StaticEdge {
         parent: header.frame_id.ok_or_else(|| absent("header.frame_id"))?,
         child: stamped.child_frame_id.ok_or_else(|| absent("child_frame_id"))?,
         parent_from_child,
+    })
+}
+
+/// The pose in `field` of a message, if tf2 would take it.
+pub(super) fn pose(
+    file: &str,
+    field: &str,
+    translation_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
+) -> Result<Transform<Named, Named>, ExportError> {
+    let wrong = |name: &str, problem: &str| {
+        let field = format!("{field}.transform.{name}");
+        ExportError::invalid(file, field, problem, "Correct what is published")
+    };
+    if !translation_m.iter().all(|metres| metres.is_finite()) {
+        return Err(wrong("translation", "not a number"));
+    }
+    // tf2 ignores a transform that misses this (QUATERNION_NORMALIZATION_TOLERANCE).
+    let squared: f64 = rotation_xyzw.iter().map(|q| q * q).sum();
+    let pose = Transform::from_xyzw(translation_m, rotation_xyzw);
+    pose.filter(|_| (squared - 1.0).abs() < 1e-2).ok_or_else(|| {
+        wrong("rotation", "the quaternion is not of unit length, so tf2 ignores the transform")
     })
 }
