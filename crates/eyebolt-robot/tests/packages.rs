@@ -3,7 +3,6 @@
 
 use eyebolt_robot::{PackageRoots, ResolveError, Robot, RobotError, Shape};
 use std::fs;
-use std::path::Path;
 use std::path::{Path, PathBuf};
 
 /// Writes an empty file and the folders above it.

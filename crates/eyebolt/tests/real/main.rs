@@ -2,6 +2,7 @@
 //!
 //! Needs the shared data; without it every test here says that it is skipped.
 
+mod bags;
 mod measures;
 mod promises;
 mod recording;
