@@ -243,3 +243,43 @@ pub fn npy(bytes: &[u8]) -> Matrix4<f64> {
         data.chunks_exact(8).map(|number| f64::from_le_bytes(number.try_into().unwrap())),
     )
 }
+
+/// tf2's listener of `/tf_static`, as a player of the file feeds it: the fields of
+/// `tf2_msgs/TFMessage` in little-endian CDR.
+pub fn static_transform(bytes: &[u8]) -> Read {
+    let messages: Vec<_> = mcap::MessageStream::new(bytes).unwrap().map(Result::unwrap).collect();
+    let [message] = messages.as_slice() else { panic!("{} messages", messages.len()) };
+    let schema = message.channel.schema.as_ref().unwrap();
+    assert_eq!(
+        (schema.name.as_str(), schema.encoding.as_str()),
+        ("tf2_msgs/msg/TFMessage", "ros2msg")
+    );
+    assert_eq!(
+        (&*message.channel.topic, &*message.channel.message_encoding),
+        ("/tf_static", "cdr")
+    );
+    // Who comes late must hear it all the same: durability 1 is transient local.
+    assert!(message.channel.metadata["offered_qos_profiles"].contains("durability: 1"));
+    let (encapsulation, body) = message.data.split_at(4);
+    assert_eq!(encapsulation, [0, 1, 0, 0]);
+    let mut at = 0_usize;
+    let mut take = |size: usize, align: usize| {
+        at = at.next_multiple_of(align);
+        at += size;
+        &body[at - size..at]
+    };
+    let count = u32::from_le_bytes(take(4, 4).try_into().unwrap());
+    assert_eq!(count, 1);
+    take(8, 4);
+    let mut text = || {
+        let length = u32::from_le_bytes(take(4, 4).try_into().unwrap()) as usize;
+        let (text, zero) = take(length, 1).split_at(length - 1);
+        assert_eq!(zero, [0]);
+        String::from_utf8(text.to_vec()).unwrap()
+    };
+    let (parent, child) = (text(), text());
+    let [x, y, z, qx, qy, qz, qw] =
+        std::array::from_fn(|_| f64::from_le_bytes(take(8, 8).try_into().unwrap()));
+    assert_eq!(at, body.len());
+    Read { parent, child, matrix: of_quaternion([x, y, z], [qx, qy, qz, qw]) }
+}

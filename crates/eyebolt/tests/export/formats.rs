@@ -2,7 +2,7 @@
 
 use crate::consumers::{
     Read, csv, easy_handeye, easy_handeye2, npy, python_arguments, ros1_publisher, ros2_publisher,
-    shell_words, xml_attribute,
+    shell_words, static_transform, xml_attribute,
 };
 use crate::poses::{config, of_roll_pitch_yaw, placement, pose};
 use eyebolt::export::{Format, Named, Placement};
@@ -48,6 +48,7 @@ pub fn read(format: Format, placement: &Placement) -> Read {
         Format::Urdf => urdf(&text(format, placement), placement.parent.as_str()),
         Format::Csv => unnamed(csv(&text(format, placement))),
         Format::Npy => unnamed(npy(&format.write(placement, ""))),
+        Format::Mcap => static_transform(&format.write(placement, "")),
         other => panic!("{other:?} has no reader here"),
     }
 }
@@ -135,9 +136,14 @@ fn the_matrix_is_rows_of_numbers() {
     assert_eq!(text(Format::Csv, &example()), rows);
 }
 
+/// Formats that have no place for a comment.
+fn bare(format: Format) -> bool {
+    matches!(format, Format::Csv | Format::Npy | Format::Mcap)
+}
+
 #[test]
 fn comments_tell_the_direction_and_the_axes() {
-    for format in Format::ALL.into_iter().filter(|f| !matches!(f, Format::Csv | Format::Npy)) {
+    for format in Format::ALL.into_iter().filter(|f| !bare(*f)) {
         let mut placement = example();
         let optical = text(format, &placement);
         assert!(optical.contains("depth optical frame: x right, y down, z forward"), "{optical}");
