@@ -1,6 +1,6 @@
 //! Point clouds in NPY.
 
-use crate::depth::{scaled, shape_text};
+use crate::depth::{LEAVE_OUT, scaled, shape_text};
 use crate::error::RecordingError;
 use crate::manifest::{CloudFrame, Unit};
 use crate::npy::{Dtype, Npy};
@@ -23,6 +23,9 @@ pub(crate) fn read_cloud(
     let (triples, _) = values.as_chunks::<3>();
     let points: Vec<_> = triples.iter().map(|xyz| optical(*xyz, frame)).collect();
     check_unit(path, FIELD, unit, points.iter().map(|p| p.coords.norm()))?;
+    if points.iter().all(|point| point.x.is_nan()) {
+        return Err(RecordingError::invalid(path, FIELD, "it has no point", LEAVE_OUT));
+    }
     match grid {
         None => Ok(Cloud::new(points)),
         Some((width, height)) => Cloud::organised(width, height, points).map_err(|error| {

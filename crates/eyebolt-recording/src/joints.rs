@@ -30,15 +30,21 @@ pub(crate) fn read_joints(path: &Path, names: &[String]) -> Result<JointPosition
     }
     let positions: Vec<f64> = npy.values();
     for (name, position) in names.iter().zip(&positions) {
-        check(path, name, *position)?;
+        check(path, FIELD, name, *position)?;
     }
     Ok(names.iter().cloned().zip(positions).collect())
 }
 
-fn check(path: &Path, name: &str, position: f64) -> Result<(), RecordingError> {
+/// Refuses what cannot be the position of a joint of an arm; `field` is where it stands.
+pub(crate) fn check(
+    path: &Path,
+    field: &str,
+    name: &str,
+    position: f64,
+) -> Result<(), RecordingError> {
     let (problem, remedy) = if !position.is_finite() {
         (format!("the position of {name} is {position}"), "Record the frame again, or leave it out")
-    } else if position.abs() > LARGEST_RAD {
+    } else if looks_like_degrees(position) {
         (
             format!("the position of {name} is {position}, which looks like degrees"),
             "Store radians (and metres for prismatic joints)",
@@ -46,5 +52,10 @@ fn check(path: &Path, name: &str, position: f64) -> Result<(), RecordingError> {
     } else {
         return Ok(());
     };
-    Err(RecordingError::invalid(path, FIELD, problem, remedy))
+    Err(RecordingError::invalid(path, field, problem, remedy))
+}
+
+/// Whether no joint of an arm turns so far.
+pub(crate) fn looks_like_degrees(position: f64) -> bool {
+    position.abs() > LARGEST_RAD
 }

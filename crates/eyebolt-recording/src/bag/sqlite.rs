@@ -65,14 +65,15 @@ impl SqliteFile {
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
             | OpenFlags::SQLITE_OPEN_NO_MUTEX
             | OpenFlags::SQLITE_OPEN_URI;
-        let opened = Connection::open_with_flags(uri::untouched(&self.path), flags).and_then(|connection| {
-            // A hostile file must not make SQLite evaluate its own expressions, or large values.
-            connection.pragma_update(None, "trusted_schema", false)?;
-            connection.pragma_update(None, "cell_size_check", true)?;
-            let limit = i32::try_from(LARGEST_CHUNK).unwrap_or(i32::MAX);
-            connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, limit)?;
-            Ok(connection)
-        });
+        let opened =
+            Connection::open_with_flags(uri::untouched(&self.path), flags).and_then(|connection| {
+                // A hostile file must not make SQLite evaluate its own expressions, or large values.
+                connection.pragma_update(None, "trusted_schema", false)?;
+                connection.pragma_update(None, "cell_size_check", true)?;
+                let limit = i32::try_from(LARGEST_CHUNK).unwrap_or(i32::MAX);
+                connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, limit)?;
+                Ok(connection)
+            });
         let connection = opened.map_err(|error| self.damaged(&error))?;
         for table in ["topics", "messages"] {
             self.check_table(&connection, table)?;
