@@ -13,7 +13,7 @@ pub use open::{BagKind, is_bag};
 use crate::error::RecordingError;
 
 /// A stream of messages of one type.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Topic {
     /// As in `/camera/depth/image_raw`.
     pub(crate) name: String,
@@ -24,7 +24,7 @@ pub(crate) struct Topic {
 }
 
 /// How messages are written as bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Encoding {
     /// ROS 2: OMG's Common Data Representation behind four bytes that tell its byte order.
     Cdr,

@@ -18,6 +18,7 @@ pub use stamps::ClockOffset;
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
+use crate::joints::{self, looks_like_degrees};
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, StaticTransform, WireReader};
 use crate::write::check_names;
@@ -129,6 +130,8 @@ impl BagRecording {
         recording.check_topics(options.partial)?;
         recording.camera = recording.read_camera(options)?;
         recording.pair(options.max_motion)?;
+        recording.check_joints()?;
+        recording.find_cloud_frame()?;
         Ok(recording)
     }
 
@@ -137,10 +140,13 @@ impl BagRecording {
         self.camera.as_ref().map(|info| &info.camera)
     }
 
-    /// Name of the frame of the depth images, the camera's optical frame.
+    /// Name of the camera's optical frame, which the frames are in; `None` where only the camera's
+    /// body has a name, in which clouds were stored.
     pub fn camera_frame_id(&self) -> Option<&str> {
         let in_info = self.camera.as_ref().and_then(|info| info.frame_id.as_deref());
-        self.range_topic().frame_id.as_deref().or(in_info)
+        let turned = self.cloud_frame == Some(CloudFrame::Body);
+        let of_frames = self.range_topic().frame_id.as_deref().filter(|_| !turned);
+        of_frames.or(in_info)
     }
 
     /// What the bag says of the robot.
@@ -223,7 +229,7 @@ impl BagRecording {
 
     fn entries(&self, number: usize) -> &[FrameEntry] {
         match &self.topic(number).content {
-            Content::Pictures { frames, .. } => frames,
+            Content::Pictures(pictures) => &pictures.frames,
             _ => &[],
         }
     }
@@ -245,13 +251,12 @@ impl BagRecording {
                 let remedy = "Record it again, or give --partial to go without such messages";
                 return Err(self.invalid(&field, text, remedy));
             }
-            let stamps = &topic.stamps;
-            if let Some((latest, next)) = stamps.first_backward_ns
-                && stamps.backward > (topic.count / MOST_BACKWARD).max(1)
+            let (backward, first) = topic.backward();
+            if let Some((latest, next)) = first
+                && backward > (topic.count / MOST_BACKWARD).max(1)
             {
                 let problem = format!(
-                    "{} of {} stamps run backward, first from {} to {}",
-                    stamps.backward,
+                    "{backward} of {} stamps run backward, first from {} to {}",
                     topic.count,
                     seconds(latest),
                     seconds(next)
@@ -288,20 +293,29 @@ impl BagRecording {
             .map_err(|problem| self.unreadable(topic, &problem))?;
         // By ROS's convention, pictures called so were rectified.
         let rectified = self.range_topic().name.contains("rect");
-        CameraInfo::from_message(&self.path, &message, rectified).map(Some)
+        let info = CameraInfo::from_message(&self.path, &message, rectified);
+        info.map(Some).map_err(|error| match error {
+            RecordingError::Invalid { field, problem, .. } => {
+                let remedy = "Give another topic with --camera-info-topic, or a file with \
+                              --camera-info";
+                self.invalid(&format!("{}: {field}", topic.name), problem, remedy)
+            }
+            other => other,
+        })
     }
 
     fn pair(&mut self, max_motion: Option<f64>) -> Result<(), RecordingError> {
         let (range, joints) = (self.range_topic(), self.topic(self.chosen.joints));
-        let Content::Joints(tracks) = &joints.content else { return Ok(()) };
-        let tracks: Vec<_> = tracks.values().collect();
+        let Content::Joints(states) = &joints.content else { return Ok(()) };
+        let tracks: Vec<_> = states.tracks().iter().collect();
         let offset = stamps::clock_offset(&range.stamps, &joints.stamps);
         let frames = self.entries(self.chosen.range);
         let paired = pair::pair(frames, &tracks, offset, max_motion);
         if paired.kept.is_empty() {
-            let first = paired.dropped.first().map(|frame| frame.reason.to_string());
+            let first =
+                paired.dropped.first().map(|frame| format!("; of the first, {}", frame.reason));
             let problem = format!(
-                "none of its {} frames can be used; of the first, {}",
+                "none of its {} frames can be used{}",
                 frames.len(),
                 first.unwrap_or_default()
             );
@@ -331,6 +345,24 @@ impl BagRecording {
         })?;
         check_names(&self.path, &names)?;
         Ok(Some(names))
+    }
+
+    /// Joints in degrees would put the arm anywhere.
+    fn check_joints(&self) -> Result<(), RecordingError> {
+        let farthest = |joint: usize| {
+            let positions = self.paired.kept.iter().filter_map(|kept| kept.positions.get(joint));
+            positions.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
+        };
+        let joints = self.paired.names.iter().enumerate();
+        let joints = joints.map(|(joint, name)| (name, farthest(joint)));
+        let suspects: Vec<_> = joints.filter(|(_, far)| looks_like_degrees(*far)).collect();
+        // Wheels, which a topic may tell of too, do turn so far; they are the lesser part.
+        match suspects.first() {
+            Some((name, position)) if 2 * suspects.len() >= self.paired.names.len() => {
+                joints::check(&self.path, &self.topic(self.chosen.joints).name, "", name, *position)
+            }
+            _ => Ok(()),
+        }
     }
 
     fn summary(&self, number: usize) -> Option<TopicSummary> {
@@ -422,8 +454,9 @@ fn problems(topic: &TopicScan) -> Vec<String> {
             topic.stamps.unset
         ));
     }
-    if topic.stamps.backward > 0 {
-        problems.push(format!("{} time stamps run backward", topic.stamps.backward));
+    let (backward, _) = topic.backward();
+    if backward > 0 {
+        problems.push(format!("{backward} time stamps run backward"));
     }
     problems
 }

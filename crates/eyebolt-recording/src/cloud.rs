@@ -6,7 +6,7 @@ mod pcd;
 mod ply;
 mod text;
 
-use crate::depth::scaled;
+use crate::depth::{LEAVE_OUT, scaled};
 use crate::error::RecordingError;
 use crate::file::read_bytes;
 use crate::manifest::{CloudFrame, Unit};
@@ -52,6 +52,9 @@ pub(crate) fn read_cloud(
     let (triples, _) = values.as_chunks::<3>();
     let points: Vec<_> = triples.iter().map(|xyz| optical(*xyz, frame)).collect();
     check_unit(path, FIELD, unit, points.iter().map(|p| p.coords.norm()))?;
+    if points.iter().all(|point| point.x.is_nan()) {
+        return Err(invalid(path, "it has no point".to_owned(), LEAVE_OUT));
+    }
     match stored.grid {
         None => Ok(Cloud::new(points)),
         Some((width, height)) => Cloud::organised(width, height, points)

@@ -11,6 +11,9 @@ use std::path::Path;
 
 const FIELD: &str = "depth";
 
+/// What to do with a frame in which the camera saw nothing.
+pub(crate) const LEAVE_OUT: &str = "Leave this frame out of the recording, or record it again";
+
 /// Reads a depth image of the size of `camera`, stored in `unit`.
 pub(crate) fn read_depth(
     path: &Path,
@@ -24,9 +27,13 @@ pub(crate) fn read_depth(
     };
     check_unit(path, FIELD, unit, depth_m.iter().copied())?;
     let (width, height, _) = camera;
-    DepthImage::new(width, height, depth_m).map_err(|error| {
+    let image = DepthImage::new(width, height, depth_m).map_err(|error| {
         RecordingError::invalid(path, FIELD, error.to_string(), "Store the whole image")
-    })
+    })?;
+    match image.depth_m().iter().any(|depth| *depth > 0.0) {
+        true => Ok(image),
+        false => Err(RecordingError::invalid(path, FIELD, "no pixel has depth", LEAVE_OUT)),
+    }
 }
 
 fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {

@@ -77,6 +77,16 @@ impl RecordingError {
         }
     }
 
+    /// The same, told of the file at `path`: what was read may be a copy of it.
+    pub(crate) fn told_of(mut self, told: &Path) -> Self {
+        match &mut self {
+            Self::Read { path, .. }
+            | Self::Invalid { path, .. }
+            | Self::NoSuchFrame { path, .. } => *path = told.to_path_buf(),
+        }
+        self
+    }
+
     /// The file or folder that the error is about.
     pub fn path(&self) -> &Path {
         match self {

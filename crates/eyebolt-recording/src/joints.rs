@@ -88,7 +88,7 @@ fn positions(
     pairs: Vec<(String, f64)>,
 ) -> Result<JointPositions, RecordingError> {
     for (name, position) in &pairs {
-        check(path, place, name, *position)?;
+        check(path, FIELD, place, name, *position)?;
     }
     Ok(pairs.into_iter().collect())
 }
@@ -110,13 +110,21 @@ fn in_order(
     positions(path, "", names.iter().cloned().zip(numbers).collect())
 }
 
-fn check(path: &Path, place: &str, name: &str, position: f64) -> Result<(), RecordingError> {
+/// Refuses what cannot be the position of a joint of an arm; `field` is where it stands, `place`
+/// where in it.
+pub(crate) fn check(
+    path: &Path,
+    field: &str,
+    place: &str,
+    name: &str,
+    position: f64,
+) -> Result<(), RecordingError> {
     let (problem, remedy) = if !position.is_finite() {
         (
             format!("{place}the position of {name} is {position}"),
             "Record the frame again, or leave it out",
         )
-    } else if position.abs() > LARGEST_RAD {
+    } else if looks_like_degrees(position) {
         (
             format!("{place}the position of {name} is {position}, which looks like degrees"),
             "Store radians (and metres for prismatic joints)",
@@ -124,5 +132,10 @@ fn check(path: &Path, place: &str, name: &str, position: f64) -> Result<(), Reco
     } else {
         return Ok(());
     };
-    Err(invalid(path, problem, remedy))
+    Err(RecordingError::invalid(path, field, problem, remedy))
+}
+
+/// Whether no joint of an arm turns so far.
+pub(crate) fn looks_like_degrees(position: f64) -> bool {
+    position.abs() > LARGEST_RAD
 }

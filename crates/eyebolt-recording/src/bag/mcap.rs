@@ -4,12 +4,14 @@
 //! read as far as it goes. Records that tell nothing of messages are passed over unread.
 
 mod chunk;
+mod fields;
 mod records;
 
 use super::cache::ChunkCache;
 use super::{BagFile, LARGEST_CHUNK, Message, Place};
 use crate::error::RecordingError;
 use chunk::Unpacker;
+use fields::Fields;
 use records::{Topics, after_magic};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -21,6 +23,8 @@ pub(super) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 
 /// Bytes of the opcode and the length before every record.
 const FRAMING: u64 = 9;
+/// Bytes of the last record: where the summary and its offsets start, and a checksum.
+const FOOTER_BYTES: u64 = 20;
 
 /// A file in MCAP.
 #[derive(Debug)]
@@ -107,25 +111,23 @@ impl McapFile {
         }
     }
 
-    /// The metadata records called `name`, the last one where there are several.
+    /// The metadata record called `name`, the last one where there are several.
+    ///
+    /// Damage is passed over: whoever scans the messages hears of it.
     pub(crate) fn metadata(
         &self,
         name: &str,
     ) -> Result<Option<BTreeMap<String, String>>, RecordingError> {
         let mut found = None;
-        let mut visit = |head: RecordHead, body: &[u8]| {
-            if head.opcode == mcap::records::op::METADATA {
-                let metadata =
-                    records::metadata(body).map_err(|problem| self.damaged(head.at, problem))?;
-                found = Some(metadata).filter(|m| m.name == name).or(found.take());
-            }
+        let mut visit = |_: RecordHead, body: &[u8]| {
+            found = records::metadata(body, name).ok().flatten().or(found.take());
             Ok(())
         };
-        self.records(&[mcap::records::op::METADATA], &mut visit, &mut Err)?;
-        Ok(found.map(|metadata| metadata.metadata))
+        self.records(&[mcap::records::op::METADATA], &mut visit, &mut |_| Ok(()))?;
+        Ok(found)
     }
 
-    /// Hands the records with one of `opcodes` to `visit`.
+    /// Hands the records with one of `opcodes` before the summary to `visit`.
     fn records(
         &self,
         opcodes: &[u8],
@@ -134,27 +136,74 @@ impl McapFile {
     ) -> Result<(), RecordingError> {
         let file = File::open(&self.path).map_err(|cause| self.unreadable(cause))?;
         let mut reader = BufReader::with_capacity(1 << 20, file);
-        let mut at = after_magic(&self.path, &mut reader)?;
+        let at = after_magic(&self.path, &mut reader)?;
+        self.records_from(&mut reader, at, opcodes, visit, damage)
+    }
+
+    /// As [`Self::records`], from byte `at`, where the reader is.
+    fn records_from(
+        &self,
+        reader: &mut BufReader<File>,
+        mut at: u64,
+        opcodes: &[u8],
+        visit: &mut dyn FnMut(RecordHead, &[u8]) -> Result<(), RecordingError>,
+        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
         let mut body = Vec::new();
         loop {
-            let head = match self.head(&mut reader, at) {
+            let head = match self.head(reader, at) {
                 Ok(Some(head)) => head,
                 Ok(None) => return Ok(()),
                 Err(error) => return damage(error),
             };
             let next = at + FRAMING + head.length;
-            if opcodes.contains(&head.opcode) {
-                match self.body(&mut reader, head, &mut body) {
-                    Ok(()) => visit(head, &body)?,
-                    Err(error) => damage(error)?,
-                }
-            } else {
+            if !opcodes.contains(&head.opcode) {
                 // At most what the file has: an offset that fits.
                 let skipped = i64::try_from(head.length).unwrap_or(i64::MAX);
                 reader.seek_relative(skipped).map_err(|cause| self.unreadable(cause))?;
+            } else if let Err(error) = self.body(reader, head, &mut body) {
+                damage(error)?;
+                reader.seek(SeekFrom::Start(next)).map_err(|cause| self.unreadable(cause))?;
+            } else {
+                visit(head, &body)?;
             }
             at = next;
         }
+    }
+
+    /// Schemas and channels of the summary, if the file has one.
+    ///
+    /// Many writers tell them once, before the first message, and again in the summary.
+    fn summarised(&self) -> Topics {
+        use mcap::records::op::{CHANNEL, SCHEMA};
+        let mut topics = Topics::default();
+        let Some(start) = self.summary_start() else { return topics };
+        let Ok(file) = File::open(&self.path) else { return topics };
+        let mut reader = BufReader::new(file);
+        if reader.seek(SeekFrom::Start(start)).is_ok() {
+            let mut visit = |head: RecordHead, body: &[u8]| {
+                topics.summary(head.opcode, body);
+                Ok(())
+            };
+            // Only a help: the file is read without.
+            drop(self.records_from(&mut reader, start, &[SCHEMA, CHANNEL], &mut visit, &mut Err));
+        }
+        topics
+    }
+
+    /// Where the summary starts, which the footer tells.
+    fn summary_start(&self) -> Option<u64> {
+        let at = self.length.checked_sub(FRAMING + FOOTER_BYTES + MAGIC.len() as u64)?;
+        let mut file = File::open(&self.path).ok()?;
+        file.seek(SeekFrom::Start(at)).ok()?;
+        let mut footer = Vec::new();
+        file.take(FRAMING + FOOTER_BYTES).read_to_end(&mut footer).ok()?;
+        let mut fields = Fields::new(&footer);
+        let opcode = fields.bytes(1).ok()?;
+        let length = fields.u64().ok()?;
+        let start = fields.u64().ok()?;
+        let is_footer = opcode == [mcap::records::op::FOOTER] && length == FOOTER_BYTES;
+        Some(start).filter(|start| is_footer && (1..at).contains(start))
     }
 }
 
@@ -165,7 +214,7 @@ impl BagFile for McapFile {
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         use mcap::records::op::{CHANNEL, CHUNK, MESSAGE, SCHEMA};
-        let mut topics = Topics::default();
+        let mut topics = self.summarised();
         let mut unpacker = Unpacker::default();
         let damage = std::cell::RefCell::new(damage);
         let mut visit = |head: RecordHead, body: &[u8]| {

@@ -52,7 +52,8 @@ impl Locator {
 /// A bag of one file or several.
 #[derive(Debug)]
 pub(crate) struct Bag {
-    files: Vec<Box<dyn BagFile>>,
+    /// Files, and the paths under which people know them.
+    files: Vec<(Box<dyn BagFile>, PathBuf)>,
     kind: BagKind,
     metadata: Option<BTreeMap<String, String>>,
     /// Decompressed copies, there as long as the bag is.
@@ -65,7 +66,10 @@ const METADATA: &str = "metadata.yaml";
 /// Whether there is a bag at `path`, by its first bytes; of a folder, whether a file in it is called
 /// like one.
 pub fn is_bag(path: &Path) -> bool {
-    if path.is_dir() { !files_in(path).is_empty() } else { magic(path).is_some() }
+    if !path.is_dir() {
+        return magic(path).is_some();
+    }
+    path.join(METADATA).is_file() || !files_in(path).is_empty()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,54 +157,46 @@ impl Bag {
         for path in &paths {
             bag.add(path, scratch)?;
         }
-        match bag.files.is_empty() {
-            false => Ok(bag),
-            true => {
-                let remedy = "Give the folder or file that was recorded";
-                Err(RecordingError::invalid(
-                    path,
-                    "relative_file_paths",
-                    "no file is listed",
-                    remedy,
-                ))
-            }
+        if bag.files.is_empty() {
+            let problem = format!("no bag is in it, or listed in its {METADATA}");
+            let remedy = "Give the folder or file that was recorded";
+            return Err(RecordingError::invalid(path, "bag", problem, remedy));
         }
+        Ok(bag)
     }
 
     fn add(&mut self, path: &Path, scratch: &Path) -> Result<(), RecordingError> {
-        let mut found = magic(path);
-        let mut path = path.to_path_buf();
-        if found == Some(Magic::Zstd) {
-            let unzipped = zstd::unzip_file(&path, scratch)?;
-            path = unzipped.path().to_path_buf();
-            found = magic(&path);
+        let file = if magic(path) == Some(Magic::Zstd) {
+            let unzipped = zstd::unzip_file(path, scratch, zstd::FILE_LIMIT)?;
+            let file = self.file(unzipped.path()).map_err(|error| error.told_of(path))?;
             self._unzipped.push(unzipped);
-        }
-        let file: Box<dyn BagFile> = match found {
-            Some(Magic::Bag(kind @ BagKind::Mcap)) => {
-                self.kind = kind;
-                let file = McapFile::open(&path)?;
+            file
+        } else {
+            self.file(path)?
+        };
+        self.files.push((file, path.to_path_buf()));
+        Ok(())
+    }
+
+    /// The bag at `path`, which is not compressed as a whole.
+    fn file(&mut self, path: &Path) -> Result<Box<dyn BagFile>, RecordingError> {
+        let Some(Magic::Bag(kind)) = magic(path) else {
+            // Reading it tells whether it is there at all.
+            File::open(path).map_err(|cause| RecordingError::unreadable_bag(path, cause))?;
+            let problem = "the file is neither MCAP nor SQLite nor a ROS 1 bag";
+            let remedy = "Give a bag, or a folder with a recording.toml";
+            return Err(RecordingError::invalid(path, "kind of file", problem, remedy));
+        };
+        self.kind = kind;
+        Ok(match kind {
+            BagKind::Mcap => {
+                let file = McapFile::open(path)?;
                 self.metadata = file.metadata(crate::METADATA_NAME)?.or(self.metadata.take());
                 Box::new(file)
             }
-            Some(Magic::Bag(kind @ BagKind::Sqlite)) => {
-                self.kind = kind;
-                Box::new(SqliteFile::open(&path)?)
-            }
-            Some(Magic::Bag(kind @ BagKind::Ros1)) => {
-                self.kind = kind;
-                Box::new(Ros1Bag::open(&path)?)
-            }
-            Some(Magic::Zstd) | None => {
-                // Reading it tells whether it is there at all.
-                File::open(&path).map_err(|cause| RecordingError::unreadable_bag(&path, cause))?;
-                let problem = "the file is neither MCAP nor SQLite nor a ROS 1 bag";
-                let remedy = "Give a bag, or a folder with a recording.toml";
-                return Err(RecordingError::invalid(&path, "kind of file", problem, remedy));
-            }
-        };
-        self.files.push(file);
-        Ok(())
+            BagKind::Sqlite => Box::new(SqliteFile::open(path)?),
+            BagKind::Ros1 => Box::new(Ros1Bag::open(path)?),
+        })
     }
 
     pub(crate) fn kind(&self) -> BagKind {
@@ -218,11 +214,12 @@ impl Bag {
         each: &mut dyn FnMut(Locator, &Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
-        for (number, file) in (0..).zip(&self.files) {
+        for (number, (file, path)) in (0..).zip(&self.files) {
             let mut with_file = |message: &Message<'_>| {
                 each(Locator { file: number, place: message.place }, message)
             };
-            file.scan(&mut with_file, damage)?;
+            file.scan(&mut with_file, &mut |error| damage(error.told_of(path)))
+                .map_err(|error| error.told_of(path))?;
         }
         Ok(())
     }
@@ -230,7 +227,8 @@ impl Bag {
     /// The bytes of a message.
     pub(crate) fn read(&self, locator: Locator) -> Result<Vec<u8>, RecordingError> {
         let file = self.files.get(locator.file as usize);
-        file.expect("a locator is of the bag that told it").read(locator.place)
+        let (file, path) = file.expect("a locator is of the bag that told it");
+        file.read(locator.place).map_err(|error| error.told_of(path))
     }
 }
 

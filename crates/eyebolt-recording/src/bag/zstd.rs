@@ -10,6 +10,9 @@ use tempfile::NamedTempFile;
 /// The first bytes of a compressed frame. No message in CDR begins so, nor does any kind of bag.
 pub(super) const MAGIC: [u8; 4] = 0xfd2f_b528_u32.to_le_bytes();
 
+/// Most bytes that Zstandard makes of one: a block is 128 KiB, and its header alone three bytes.
+const LARGEST_EXPANSION: u64 = (128 << 10) / 3;
+
 /// Decompresses one piece after the other into memory that it keeps.
 #[derive(Default)]
 pub(super) struct Unzipper {
@@ -28,6 +31,9 @@ impl Unzipper {
                 return Err(format!(
                     "it claims to decompress to {size} bytes, more than {limit} MiB"
                 ));
+            }
+            Some(size) if size / LARGEST_EXPANSION > data.len() as u64 => {
+                return Err(format!("{} bytes of Zstandard are never {size}", data.len()));
             }
             Some(size) => size as usize,
             // Streams do not know their length beforehand.
@@ -71,19 +77,30 @@ fn content_size(data: &[u8]) -> Option<u64> {
     zstd::zstd_safe::get_frame_content_size(data).ok().flatten()
 }
 
-/// A whole file may become so much larger, whatever its size...
-const ALWAYS_ALLOWED: u64 = 4 << 30;
-/// ...or so many times as large: no depth recording comes near.
-const LARGEST_RATIO: u64 = 200;
+/// How much larger a whole file may become.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FileLimit {
+    /// So many bytes, whatever the file's size...
+    pub(super) always: u64,
+    /// ...or so many times the file's size.
+    pub(super) ratio: u64,
+}
+
+/// No depth recording comes near.
+pub(super) const FILE_LIMIT: FileLimit = FileLimit { always: 4 << 30, ratio: 200 };
 
 /// Decompresses the file at `path` to a file in the folder `scratch` that goes when it is dropped.
-pub(super) fn unzip_file(path: &Path, scratch: &Path) -> Result<NamedTempFile, RecordingError> {
+pub(super) fn unzip_file(
+    path: &Path,
+    scratch: &Path,
+    limit: FileLimit,
+) -> Result<NamedTempFile, RecordingError> {
     let unreadable = |cause| RecordingError::unreadable_bag(path, cause);
     let compressed = File::open(path).map_err(unreadable)?;
     let stored = compressed.metadata().map_err(unreadable)?.len();
-    let limit = ALWAYS_ALLOWED.max(stored.saturating_mul(LARGEST_RATIO));
+    let limit = limit.always.max(stored.saturating_mul(limit.ratio));
     let decoder = zstd::stream::read::Decoder::with_buffer(BufReader::new(compressed));
-    let mut decoder = decoder.map_err(unreadable)?.take(limit + 1);
+    let mut decoder = decoder.map_err(unreadable)?.take(limit.saturating_add(1));
     let unwritable = |cause: std::io::Error| RecordingError::Read {
         path: scratch.to_path_buf(),
         field: "a decompressed copy of the bag".to_owned(),
@@ -105,7 +122,7 @@ pub(super) fn unzip_file(path: &Path, scratch: &Path) -> Result<NamedTempFile, R
         written += bytes.len() as u64;
     }
     if written > limit {
-        let problem = format!("{stored} bytes decompress to more than {} GiB", limit >> 30);
+        let problem = format!("{stored} bytes decompress to more than {limit}");
         let remedy = "This is no recording. If it is, decompress it with `zstd -d`";
         return Err(RecordingError::invalid(path, "zstd", problem, remedy));
     }

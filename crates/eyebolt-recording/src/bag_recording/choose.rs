@@ -29,7 +29,7 @@ impl Chosen {
             "--joint-topic",
             "joint states (sensor_msgs/JointState)",
             options.joint_topic.as_deref(),
-            &|topic| matches!(&topic.content, Content::Joints(tracks) if !tracks.is_empty()),
+            &|topic| matches!(&topic.content, Content::Joints(joints) if !joints.tracks().is_empty()),
         )?;
         let Some(joints) = joints else {
             return Err(choice.none("--joint-topic", "joint states (sensor_msgs/JointState)"));
@@ -63,7 +63,10 @@ const COLORS: [&str; 4] = ["rgb8", "bgr8", "rgba8", "bgra8"];
 
 fn encoding(topic: &TopicScan) -> Option<&str> {
     match &topic.content {
-        Content::Pictures { kind: PictureKind::Image { encoding, .. }, .. } => Some(encoding),
+        Content::Pictures(pictures) => match &pictures.kind {
+            PictureKind::Image { encoding, .. } => Some(encoding),
+            _ => None,
+        },
         _ => None,
     }
 }
@@ -74,8 +77,10 @@ fn is_color(topic: &TopicScan) -> bool {
 
 fn size(topic: &TopicScan) -> Option<(u32, u32)> {
     match &topic.content {
-        Content::Pictures { kind: PictureKind::Image { size, .. }, .. }
-        | Content::Pictures { kind: PictureKind::Cloud { size }, .. } => Some(*size),
+        Content::Pictures(pictures) => match &pictures.kind {
+            PictureKind::Image { size, .. } | PictureKind::Cloud { size } => Some(*size),
+            _ => None,
+        },
         Content::CameraInfo { first, .. } => first.as_ref().map(super::scan::Intrinsics::size),
         _ => None,
     }
@@ -83,7 +88,7 @@ fn size(topic: &TopicScan) -> Option<(u32, u32)> {
 
 fn rank(topic: &TopicScan) -> Option<u8> {
     match &topic.content {
-        Content::Pictures { kind, .. } => kind.range_rank(),
+        Content::Pictures(pictures) => pictures.kind.range_rank(),
         _ => None,
     }
 }
@@ -188,13 +193,12 @@ impl Choice<'_> {
         };
         let found = self.one(flag, what, None, &same)?;
         // Clouds tell their camera themselves, if they have one.
-        let cloud =
-            matches!(&depth.content, Content::Pictures { kind: PictureKind::Cloud { .. }, .. });
+        let cloud = matches!(&depth.content, Content::Pictures(p) if matches!(p.kind, PictureKind::Cloud { .. }));
         match found {
             None if !cloud => {
                 let problem = format!("no topic has the intrinsics of {}", depth.name);
                 let remedy = format!(
-                    "Record its camera_info, or give it as a file with --camera-info; {}",
+                    "Record its camera_info, or give it as a file with --camera-info. {}",
                     self.candidates(&infos)
                 );
                 Err(RecordingError::invalid(self.path, flag, problem, remedy))

@@ -62,9 +62,10 @@ impl BagRecording {
     /// Whether depth is stored in whole millimetres.
     pub(crate) fn in_millimetres(&self) -> bool {
         match &self.range_topic().content {
-            Content::Pictures { kind: PictureKind::Image { encoding, .. }, .. } => {
-                encoding != "32FC1"
-            }
+            Content::Pictures(pictures) => match &pictures.kind {
+                PictureKind::Image { encoding, .. } => encoding != "32FC1",
+                _ => false,
+            },
             _ => false,
         }
     }

@@ -6,7 +6,7 @@ use crate::bag::Locator;
 use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::frame::{Frame, Range};
-use crate::manifest::Unit;
+use crate::manifest::{CloudFrame, Unit};
 use crate::message::{
     CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, types,
 };
@@ -42,8 +42,13 @@ impl BagRecording {
         let entry = self.entry(index)?;
         let Some(number) = self.chosen.color else { return Ok(None) };
         let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
+        let size = self.camera().map(|camera| (camera.width(), camera.height()));
         self.image(number, picture.locator, |image| {
             let (width, height) = (image.width, image.height);
+            if let Some((w, h)) = size.filter(|size| *size != (width, height)) {
+                let problem = format!("the picture is {width} x {height}, the camera {w} x {h}");
+                return Err(WireProblem::new("width", problem));
+            }
             Ok(image.rgb()?.map(|rgb| ColorImage { width, height, rgb }))
         })
     }
@@ -51,7 +56,7 @@ impl BagRecording {
     fn entry(&self, index: usize) -> Result<FrameEntry, RecordingError> {
         let kept = self.kept(index)?;
         let entry = self.entries(self.chosen.range).get(kept.index);
-        Ok(*entry.expect("frames that take part are of the topic"))
+        Ok(entry.expect("frames that take part are of the topic").clone())
     }
 
     /// Depth image or cloud of a frame, in the optical frame.
@@ -81,8 +86,13 @@ impl BagRecording {
         let unit = if in_millimetres { Unit::Millimetres } else { Unit::Metres };
         self.check_depth(entry, size, &depth_m, unit)?;
         let (width, height) = size;
-        let image = DepthImage::new(width, height, depth_m);
-        image.map(Range::Depth).map_err(|error| wrong(WireProblem::new("data", error.to_string())))
+        let image = DepthImage::new(width, height, depth_m)
+            .map_err(|error| wrong(WireProblem::new("data", error.to_string())))?;
+        // Of most kinds the scan saw that.
+        match image.depth_m().iter().any(|depth| *depth > 0.0) {
+            true => Ok(Range::Depth(image)),
+            false => Err(wrong(WireProblem::new("data", "no pixel has depth"))),
+        }
     }
 
     fn check_depth(
@@ -110,6 +120,27 @@ impl BagRecording {
         })
     }
 
+    /// The same frame for all clouds: that of the first one of use.
+    pub(super) fn find_cloud_frame(&mut self) -> Result<(), RecordingError> {
+        let topic = self.range_topic();
+        if topic.message_type != types::CLOUD || self.cloud_frame.is_some() {
+            return Ok(());
+        }
+        let Some(entry) = self.paired.kept.first().map(|kept| kept.index) else { return Ok(()) };
+        let Some(entry) = self.entries(self.chosen.range).get(entry) else { return Ok(()) };
+        let bytes = self.bag.read(entry.locator)?;
+        let points = WireReader::new(&topic.encoding, &bytes)
+            .and_then(|mut reader| CloudMessage::read(&mut reader)?.points())
+            .map_err(|problem| self.unreadable_frame(topic, entry, &problem))?;
+        let frame = clouds::frame_of(topic.frame_id.as_deref(), &points).map_err(|problem| {
+            let remedy = "Give --cloud-frame optical (x right, y down, z forward) or body \
+                          (x forward, y left, z up)";
+            self.invalid(&frame_field(topic, entry), problem, remedy)
+        })?;
+        self.cloud_frame = Some(frame);
+        Ok(())
+    }
+
     fn cloud(
         &self,
         entry: &FrameEntry,
@@ -118,15 +149,12 @@ impl BagRecording {
     ) -> Result<Cloud, RecordingError> {
         let topic = self.range_topic();
         let field = frame_field(topic, entry);
-        check_unit(&self.path, &field, Unit::Metres, points.iter().map(norm))?;
-        let frame = match self.cloud_frame {
-            Some(frame) => frame,
-            None => clouds::frame_of(topic.frame_id.as_deref(), &points).map_err(|problem| {
-                let remedy = "Give --cloud-frame optical (x right, y down, z forward) or body \
-                              (x forward, y left, z up)";
-                self.invalid(&field, problem, remedy)
-            })?,
-        };
+        check_unit(&self.path, &field, Unit::Metres, points.iter().map(norm)).map_err(|error| {
+            let remedy = "Correct the driver: points are in metres (REP 118)";
+            self.invalid(&field, error.problem(), remedy)
+        })?;
+        // Found when the bag was opened, unless no cloud could be read.
+        let frame = self.cloud_frame.unwrap_or(CloudFrame::Optical);
         let points: Vec<Point3<f32>> =
             points.into_iter().map(|xyz| crate::cloud::optical(xyz, frame)).collect();
         if height <= 1 {
@@ -141,10 +169,17 @@ impl BagRecording {
         let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
         let mask = self.image(number, picture.locator, |image| image.mask())?;
         match range.size() {
+            None => {
+                let problem =
+                    "the cloud is a list of points, and no pixel of a mask belongs to one";
+                let field = frame_field(self.range_topic(), entry);
+                let remedy = "Record clouds of rows and columns, or none of masks";
+                Err(self.invalid(&field, problem.to_owned(), remedy))
+            }
             Some(size) if size != (mask.width(), mask.height()) => {
                 let (w, h) = (mask.width(), mask.height());
                 let problem = format!("the mask is {w} x {h}, the frame {} x {}", size.0, size.1);
-                let field = frame_field(self.topic(number), &picture);
+                let field = frame_field(self.topic(number), picture);
                 Err(self.invalid(&field, problem, "Both must be of the same camera and size"))
             }
             _ => Ok(Some(mask)),
@@ -186,7 +221,8 @@ fn norm([x, y, z]: &[f32; 3]) -> f32 {
 }
 
 /// The picture of the moment `stamp_ns`, if there is one.
-fn nearest(entries: &[FrameEntry], stamp_ns: i64) -> Option<FrameEntry> {
-    let nearest = entries.iter().min_by_key(|entry| entry.stamp_ns.abs_diff(stamp_ns));
-    nearest.filter(|entry| entry.stamp_ns.abs_diff(stamp_ns) <= SAME_MOMENT_NS).copied()
+fn nearest(entries: &[FrameEntry], stamp_ns: i64) -> Option<&FrameEntry> {
+    let fit = entries.iter().filter(|entry| entry.unfit.is_none());
+    let nearest = fit.min_by_key(|entry| entry.stamp_ns.abs_diff(stamp_ns));
+    nearest.filter(|entry| entry.stamp_ns.abs_diff(stamp_ns) <= SAME_MOMENT_NS)
 }

@@ -1,8 +1,9 @@
 //! Which frames were taken while the arm stood still, and where its joints were.
 
-use super::scan::FrameEntry;
+use super::scan::{FrameEntry, Unfit};
 use super::stamps::ClockOffset;
 use super::track::Track;
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// A frame of a bag that does not take part.
@@ -33,7 +34,9 @@ pub enum DropReason {
     },
     /// It is stamped no later than a frame before it.
     StampBackward,
-    /// It lies in a part of the bag that is damaged, or is damaged itself.
+    /// The camera saw nothing: no pixel has depth.
+    Empty,
+    /// Its message is damaged.
     Unreadable(String),
 }
 
@@ -50,7 +53,19 @@ impl fmt::Display for DropReason {
                 write!(f, "the nearest joint state is {age_s:.2} s away")
             }
             Self::StampBackward => write!(f, "its time stamp is not later than the one before"),
+            Self::Empty => write!(f, "no pixel has depth"),
             Self::Unreadable(problem) => write!(f, "{problem}"),
+        }
+    }
+}
+
+impl From<&Unfit> for DropReason {
+    fn from(unfit: &Unfit) -> Self {
+        match unfit {
+            Unfit::Empty => Self::Empty,
+            Unfit::Unreadable(wrong) => {
+                Self::Unreadable(format!("{}: {}", wrong.field, wrong.problem))
+            }
         }
     }
 }
@@ -104,7 +119,7 @@ pub(super) fn pair(
     offset: Option<ClockOffset>,
     max_motion: Option<f64>,
 ) -> Paired {
-    let names: Vec<String> = tracks.iter().flat_map(|track| track.names()).cloned().collect();
+    let joints = Joints::new(tracks);
     let shift = offset.filter(|offset| offset.applied).map_or(0.0, |offset| offset.seconds);
     let doubt_s = offset.map_or(0.0, |offset| offset.uncertainty_s).min(LARGEST_DOUBT_S);
     let half_ns = half_exposure(frames).saturating_add(nanoseconds(doubt_s));
@@ -115,13 +130,16 @@ pub(super) fn pair(
             // A stamp before one that came earlier is of another run of the clock.
             let backward = frame.stamp_ns <= latest;
             latest = latest.max(frame.stamp_ns);
-            let stamp_ns = frame.stamp_ns.saturating_add(nanoseconds(shift));
-            if backward { Err(DropReason::StampBackward) } else { at(tracks, stamp_ns, half_ns) }
+            match &frame.unfit {
+                Some(unfit) => Err(DropReason::from(unfit)),
+                None if backward => Err(DropReason::StampBackward),
+                None => joints.at(frame.stamp_ns.saturating_add(nanoseconds(shift)), half_ns),
+            }
         })
         .collect();
     let motions = judged.iter().filter_map(|state| Some(state.as_ref().ok()?.1)).collect();
     let motion_limit = max_motion.unwrap_or_else(|| limit_of(motions));
-    let mut paired = Paired { names, motion_limit, ..Paired::default() };
+    let mut paired = Paired { names: joints.names(), motion_limit, ..Paired::default() };
     for ((index, state), frame) in judged.into_iter().enumerate().zip(frames) {
         let reason = match state {
             Ok((positions, motion)) if motion <= motion_limit => {
@@ -142,25 +160,60 @@ fn nanoseconds(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
 }
 
-/// Positions of all joints at a time, and how far they move around it.
-fn at(tracks: &[&Track], stamp_ns: i64, half_ns: i64) -> Result<(Vec<f64>, f64), DropReason> {
-    let mut positions = Vec::new();
-    let mut motion = 0.0_f64;
-    for track in tracks {
-        positions.extend(positions_at(track, stamp_ns)?);
-        let (from_ns, to_ns) = (stamp_ns.saturating_sub(half_ns), stamp_ns.saturating_add(half_ns));
-        motion = motion.max(track.motion(from_ns, to_ns, DENSE_NS));
+/// The joints of all tracks.
+struct Joints<'a> {
+    /// Tracks, and which of their positions are taken.
+    tracks: Vec<(&'a Track, Vec<usize>)>,
+    /// Whether some track tells how the joints move.
+    live: bool,
+}
+
+impl<'a> Joints<'a> {
+    /// A joint that several tracks tell is taken from the one that tells most often: some programs
+    /// tell all joints once, when they start.
+    fn new(tracks: &[&'a Track]) -> Self {
+        let mut sorted = tracks.to_vec();
+        sorted.sort_by_key(|track| std::cmp::Reverse(track.count()));
+        let mut known = BTreeSet::new();
+        let mut taken = |track: &'a Track| -> Vec<usize> {
+            let names = track.names().iter().enumerate();
+            names.filter(|(_, name)| known.insert(*name)).map(|(index, _)| index).collect()
+        };
+        let live = sorted.first().is_some_and(|track| track.count() > 1);
+        let tracks = sorted.into_iter().map(|track| (track, taken(track)));
+        Self { tracks: tracks.filter(|(_, taken)| !taken.is_empty()).collect(), live }
     }
-    Ok((positions, motion))
+
+    fn names(&self) -> Vec<String> {
+        let names = |(track, taken): &(&Track, Vec<usize>)| pick(track.names(), taken);
+        self.tracks.iter().flat_map(names).collect()
+    }
+
+    /// Positions at a time, and how far the joint that moves most moves around it.
+    fn at(&self, stamp_ns: i64, half_ns: i64) -> Result<(Vec<f64>, f64), DropReason> {
+        let (from_ns, to_ns) = (stamp_ns.saturating_sub(half_ns), stamp_ns.saturating_add(half_ns));
+        let mut positions = Vec::new();
+        let mut motion = 0.0_f64;
+        for (track, taken) in &self.tracks {
+            // What was told once stays so: drivers of grippers do that.
+            let once = track.count() == 1 && self.live;
+            let all =
+                if once { track.nearest(stamp_ns).map(|(_, all)| all.to_vec()) } else { None };
+            let all = all.map_or_else(|| positions_at(track, stamp_ns), Ok)?;
+            positions.extend(pick(&all, taken));
+            motion = motion.max(track.motion(from_ns, to_ns, DENSE_NS));
+        }
+        Ok((positions, motion))
+    }
+}
+
+fn pick<T: Clone>(all: &[T], taken: &[usize]) -> Vec<T> {
+    taken.iter().filter_map(|index| all.get(*index).cloned()).collect()
 }
 
 fn positions_at(track: &Track, stamp_ns: i64) -> Result<Vec<f64>, DropReason> {
-    // What was told once stays so: drivers of grippers do that.
     let nearest =
         track.nearest(stamp_ns).ok_or(DropReason::StaleJoints { age_s: f64::INFINITY })?;
-    if track.count() == 1 {
-        return Ok(nearest.1.to_vec());
-    }
     if let Some(piece) = track.piece(stamp_ns) {
         let still = || {
             let steps = piece.start.iter().zip(piece.end).map(|(a, b)| (a - b).abs());

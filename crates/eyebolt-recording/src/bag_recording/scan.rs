@@ -1,12 +1,17 @@
 //! One pass over a bag: what every topic is, where the frames lie, and where the joints were.
 
+mod joints;
+mod pictures;
+
+pub(super) use joints::JointTracks;
+pub(super) use pictures::{FrameEntry, PictureKind, Pictures, Unfit};
+
 use super::stamps::Stamps;
 use super::track::Track;
 use crate::bag::{Bag, Encoding, Locator, Message, Topic};
 use crate::error::RecordingError;
 use crate::message::{
-    CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
-    JointStateMessage, StaticTransform, WireProblem, WireReader, is_depth_encoding, text,
+    CameraInfoMessage, Header, JointStateMessage, StaticTransform, WireProblem, WireReader, text,
     transforms, types,
 };
 use std::collections::BTreeMap;
@@ -43,12 +48,9 @@ pub(super) struct TopicScan {
 #[derive(Debug)]
 pub(super) enum Content {
     /// Pictures, depth or not.
-    Pictures {
-        kind: PictureKind,
-        frames: Vec<FrameEntry>,
-    },
+    Pictures(Pictures),
     /// Positions of joints; one track for each set of names.
-    Joints(BTreeMap<Vec<String>, Track>),
+    Joints(JointTracks),
     /// The first intrinsics, whether later ones differ, and where the first lie.
     CameraInfo {
         first: Option<Intrinsics>,
@@ -59,41 +61,6 @@ pub(super) enum Content {
     Text(String),
     Transforms,
     Other,
-}
-
-/// How pictures are stored, told by the first one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum PictureKind {
-    Image {
-        encoding: String,
-        size: (u32, u32),
-    },
-    CompressedDepth,
-    Cloud {
-        size: (u32, u32),
-    },
-    /// Compressed, and no depth.
-    CompressedColor,
-    Unknown,
-}
-
-impl PictureKind {
-    /// Whether distances can be read from it, the best kind first.
-    pub(super) fn range_rank(&self) -> Option<u8> {
-        match self {
-            Self::Image { encoding, .. } if is_depth_encoding(encoding) => Some(0),
-            Self::CompressedDepth => Some(1),
-            Self::Cloud { .. } => Some(2),
-            _ => None,
-        }
-    }
-}
-
-/// When and where a picture was recorded.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrameEntry {
-    pub(super) stamp_ns: i64,
-    pub(super) locator: Locator,
 }
 
 /// Intrinsics, to be compared.
@@ -118,8 +85,6 @@ impl Intrinsics {
 const LONGEST_TEXT: usize = 64 << 20;
 /// Static transforms kept.
 const MOST_TRANSFORMS: usize = 10_000;
-/// Sets of joint names kept of one topic.
-const MOST_TRACKS: usize = 64;
 
 impl Scan {
     /// Reads all of `bag`. With `partial`, damaged parts are passed over and listed.
@@ -127,14 +92,17 @@ impl Scan {
         let mut scan = Self::default();
         let mut damage = Vec::new();
         let mut numbers: BTreeMap<(u32, usize), usize> = BTreeMap::new();
+        let mut topics: BTreeMap<Topic, usize> = BTreeMap::new();
         bag.scan(
             &mut |locator, message| {
                 let key = (locator.file(), message.topic_index);
-                let known = numbers.get(&key).copied();
-                let number = known.unwrap_or_else(|| scan.topic(message));
-                if known.is_none() {
-                    numbers.insert(key, number);
-                }
+                // The topic may be known of another file.
+                let number = *numbers.entry(key).or_insert_with(|| {
+                    *topics.entry(message.topic.clone()).or_insert_with(|| {
+                        scan.topics.push(TopicScan::new(message));
+                        scan.topics.len() - 1
+                    })
+                });
                 scan.add(number, locator, message);
                 Ok(())
             },
@@ -152,30 +120,14 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Number of the topic that `message` is of, here and in other files of the bag.
-    fn topic(&mut self, message: &Message<'_>) -> usize {
-        let same = |t: &TopicScan| {
-            let Topic { name, message_type, encoding } = message.topic;
-            (&t.name, &t.message_type, &t.encoding) == (name, message_type, encoding)
-        };
-        let known = self.topics.iter().position(same);
-        known.unwrap_or_else(|| {
-            self.topics.push(TopicScan::new(message));
-            self.topics.len() - 1
-        })
-    }
-
     fn add(&mut self, number: usize, locator: Locator, message: &Message<'_>) {
         let Some(topic) = self.topics.get_mut(number) else { return };
         topic.count += 1;
         topic.bytes += message.data.len() as u64;
         topic.first_ns = topic.first_ns.min(message.log_time_ns);
         topic.last_ns = topic.last_ns.max(message.log_time_ns);
-        let read = WireReader::new(&message.topic.encoding, message.data)
-            .and_then(|mut reader| topic.read(&mut reader, locator, message.log_time_ns));
-        match read {
+        match topic.read(message, locator) {
             Ok(found) => {
-                // Only what never changes tells of a camera's frames.
                 let room = MOST_TRANSFORMS.saturating_sub(self.static_transforms.len());
                 for transform in found.into_iter().take(room) {
                     self.static_transforms.retain(|other| other.child != transform.child);
@@ -193,8 +145,8 @@ impl Scan {
         self.topics.sort_by(|a, b| a.name.cmp(&b.name));
         for topic in &mut self.topics {
             match &mut topic.content {
-                Content::Joints(tracks) => tracks.values_mut().for_each(Track::finish),
-                Content::Pictures { frames, .. } => frames.shrink_to_fit(),
+                Content::Joints(tracks) => tracks.finish(),
+                Content::Pictures(pictures) => pictures.frames.shrink_to_fit(),
                 _ => {}
             }
         }
@@ -206,7 +158,6 @@ const MOST_DAMAGE: usize = 100;
 
 impl TopicScan {
     fn new(message: &Message<'_>) -> Self {
-        let pictures = || Content::Pictures { kind: PictureKind::Unknown, frames: Vec::new() };
         Self {
             name: message.topic.name.clone(),
             message_type: message.topic.message_type.clone(),
@@ -220,54 +171,76 @@ impl TopicScan {
             unreadable: 0,
             first_problem: None,
             content: match message.topic.message_type.as_str() {
-                types::IMAGE | types::COMPRESSED_IMAGE | types::CLOUD => pictures(),
-                types::JOINT_STATE => Content::Joints(BTreeMap::new()),
+                types::IMAGE | types::COMPRESSED_IMAGE | types::CLOUD => {
+                    Content::Pictures(Pictures::default())
+                }
+                types::JOINT_STATE => Content::Joints(JointTracks::default()),
                 types::CAMERA_INFO => {
                     Content::CameraInfo { first: None, changed_ns: None, locator: None }
                 }
                 types::STRING => Content::Text(String::new()),
-                types::TRANSFORMS | types::OLD_TRANSFORMS => Content::Transforms,
+                // Only what never changes tells of a camera's frames.
+                types::TRANSFORMS | types::OLD_TRANSFORMS
+                    if message.topic.name.ends_with("tf_static") =>
+                {
+                    Content::Transforms
+                }
                 _ => Content::Other,
             },
+        }
+    }
+
+    /// How many stamps are before one that came earlier, and the first such pair, nanoseconds.
+    pub(super) fn backward(&self) -> (u64, Option<(i64, i64)>) {
+        match &self.content {
+            // Several publishers need not tell of the same moments in turn.
+            Content::Joints(joints) => {
+                let tracks = joints.tracks().iter();
+                let first = tracks.clone().find_map(Track::first_backward_ns);
+                (tracks.map(Track::backward).sum(), first)
+            }
+            _ => (self.stamps.backward, self.stamps.first_backward_ns),
         }
     }
 
     /// Takes in one message; returns the static transforms in it.
     fn read(
         &mut self,
-        reader: &mut WireReader<'_>,
+        message: &Message<'_>,
         locator: Locator,
-        log_time_ns: i64,
     ) -> Result<Vec<StaticTransform>, WireProblem> {
+        let log_time_ns = message.log_time_ns;
+        let reader = || WireReader::new(&message.topic.encoding, message.data);
         match &mut self.content {
-            Content::Other => return Ok(Vec::new()),
-            Content::Transforms => {
-                let fixed = self.name.ends_with("tf_static");
-                return if fixed { transforms(reader) } else { Ok(Vec::new()) };
-            }
+            Content::Other => {}
+            Content::Transforms => return transforms(&mut reader()?),
             Content::Text(last) => {
-                let text = text(reader)?;
+                let mut reader = reader()?;
+                let text = text(&mut reader)?;
                 if text.len() <= LONGEST_TEXT {
                     text.clone_into(last);
                 }
             }
-            Content::Pictures { kind, frames } => {
-                let header = Header::read(&mut reader.clone())?;
-                if *kind == PictureKind::Unknown {
-                    *kind = picture_kind(&self.message_type, reader)?;
-                }
-                let stamp_ns = self.stamps.add(header.stamp_ns, log_time_ns);
-                note_frame(&mut self.frame_id, &header);
-                frames.push(FrameEntry { stamp_ns, locator });
+            Content::Pictures(pictures) => {
+                let header = reader().and_then(|mut reader| Header::read(&mut reader));
+                let stamp_ns = match &header {
+                    Ok(header) => {
+                        note_frame(&mut self.frame_id, header);
+                        self.stamps.add(header.stamp_ns, log_time_ns)
+                    }
+                    Err(_) => log_time_ns,
+                };
+                pictures.add(&self.message_type, reader(), stamp_ns, locator)?;
             }
             Content::Joints(tracks) => {
-                let message = JointStateMessage::read(reader)?;
-                let stamp_ns = self.stamps.add(message.header.stamp_ns, log_time_ns);
-                note_frame(&mut self.frame_id, &message.header);
-                add_joints(tracks, stamp_ns, &message)?;
+                let joints = JointStateMessage::read(&mut reader()?)?;
+                let stamp_ns = self.stamps.add_unordered(joints.header.stamp_ns, log_time_ns);
+                note_frame(&mut self.frame_id, &joints.header);
+                tracks.add(stamp_ns, &joints)?;
             }
             Content::CameraInfo { first, changed_ns, locator: place } => {
-                let info = CameraInfoMessage::read(reader)?;
+                let mut reader = reader()?;
+                let info = CameraInfoMessage::read(&mut reader)?;
                 note_frame(&mut self.frame_id, &info.header);
                 self.stamps.add(info.header.stamp_ns, log_time_ns);
                 let intrinsics = Intrinsics::new(&info);
@@ -291,56 +264,4 @@ fn note_frame(frame_id: &mut Option<String>, header: &Header<'_>) {
     if frame_id.is_none() && !header.frame_id.is_empty() {
         *frame_id = Some(header.frame_id.trim_start_matches('/').to_owned());
     }
-}
-
-fn picture_kind(kind: &str, reader: &mut WireReader<'_>) -> Result<PictureKind, WireProblem> {
-    Ok(match kind {
-        types::IMAGE => {
-            let image = ImageMessage::read(reader)?;
-            let encoding = image.encoding.to_owned();
-            PictureKind::Image { encoding, size: (image.width, image.height) }
-        }
-        types::CLOUD => {
-            let cloud = CloudMessage::read(reader)?;
-            PictureKind::Cloud { size: (cloud.width, cloud.height) }
-        }
-        _ => match CompressedImageMessage::read(reader)?.is_depth() {
-            true => PictureKind::CompressedDepth,
-            false => PictureKind::CompressedColor,
-        },
-    })
-}
-
-fn add_joints(
-    tracks: &mut BTreeMap<Vec<String>, Track>,
-    stamp_ns: i64,
-    message: &JointStateMessage<'_>,
-) -> Result<(), WireProblem> {
-    if message.positions.is_empty() {
-        return Ok(());
-    }
-    if let Some(bad) = message.positions.iter().position(|position| !position.is_finite()) {
-        let name = message.names.get(bad).unwrap_or(&"");
-        let problem = format!("the position of {name} is not a number");
-        return Err(WireProblem::new("position", problem));
-    }
-    let same = |track: &&mut Track| track.names().iter().eq(message.names.iter());
-    if let Some(track) = tracks.values_mut().find(same) {
-        track.push(stamp_ns, &message.positions);
-        return Ok(());
-    }
-    let names: Vec<String> = message.names.iter().map(|name| (*name).to_owned()).collect();
-    for (index, name) in names.iter().enumerate() {
-        if names.iter().take(index).any(|earlier| earlier == name) {
-            return Err(WireProblem::new("name", format!("{name} stands there twice")));
-        }
-    }
-    if tracks.len() >= MOST_TRACKS {
-        let problem = format!("more than {MOST_TRACKS} sets of joints");
-        return Err(WireProblem::new("name", problem));
-    }
-    let mut track = Track::new(names.clone());
-    track.push(stamp_ns, &message.positions);
-    tracks.insert(names, track);
-    Ok(())
 }

@@ -21,17 +21,26 @@ const MOST_DELAYS: usize = 2048;
 impl Stamps {
     /// Adds a message; the stamp to go by.
     pub(super) fn add(&mut self, stamp_ns: i64, log_time_ns: i64) -> i64 {
+        let stands_in = stamp_ns == 0;
+        let stamp_ns = self.add_unordered(stamp_ns, log_time_ns);
+        match self.latest_ns {
+            Some(latest) if stamp_ns < latest && !stands_in => {
+                self.backward += 1;
+                self.first_backward_ns.get_or_insert((latest, stamp_ns));
+            }
+            // The time of recording is of another clock.
+            _ if stands_in => {}
+            _ => self.latest_ns = Some(stamp_ns),
+        }
+        stamp_ns
+    }
+
+    /// As [`Self::add`], of a topic on which several publish, each in its own order.
+    pub(super) fn add_unordered(&mut self, stamp_ns: i64, log_time_ns: i64) -> i64 {
         self.count += 1;
         if stamp_ns == 0 {
             self.unset += 1;
             return log_time_ns;
-        }
-        match self.latest_ns {
-            Some(latest) if stamp_ns < latest => {
-                self.backward += 1;
-                self.first_backward_ns.get_or_insert((latest, stamp_ns));
-            }
-            _ => self.latest_ns = Some(stamp_ns),
         }
         if self.count.is_multiple_of(self.stride.max(1)) {
             self.delays_ns.push(log_time_ns.saturating_sub(stamp_ns));

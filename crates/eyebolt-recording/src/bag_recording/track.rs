@@ -21,14 +21,16 @@ pub(super) struct Track {
     tolerance: f64,
     count: u64,
     backward: u64,
+    first_backward_ns: Option<(i64, i64)>,
 }
 
 /// Radians or metres: a fifth of a millimetre at the end of an arm, less than encoders make of rest.
 const TOLERANCE: f64 = 1e-4;
 /// Longer without a sample, and the line turns before and after, so that the gap stands alone.
 const GAP_NS: i64 = 50_000_000;
-/// More turns, and the tolerance doubles: some 100 MB for seven joints.
-const MOST_TURNS: usize = 1 << 20;
+/// More turns or positions, and the tolerance doubles: most of an hour of motion, or 16 MB.
+const MOST_TURNS: usize = 1 << 18;
+const MOST_POSITIONS: usize = 1 << 21;
 
 impl Track {
     pub(super) fn new(names: Vec<String>) -> Self {
@@ -43,6 +45,7 @@ impl Track {
             tolerance: TOLERANCE,
             count: 0,
             backward: 0,
+            first_backward_ns: None,
         }
     }
 
@@ -53,6 +56,16 @@ impl Track {
     /// Number of samples.
     pub(super) fn count(&self) -> u64 {
         self.count
+    }
+
+    /// Number of samples that were earlier than one before, and so were not used.
+    pub(super) fn backward(&self) -> u64 {
+        self.backward
+    }
+
+    /// The first such pair of stamps, nanoseconds.
+    pub(super) fn first_backward_ns(&self) -> Option<(i64, i64)> {
+        self.first_backward_ns
     }
 
     /// First and last stamp, nanoseconds.
@@ -66,11 +79,16 @@ impl Track {
     pub(super) fn push(&mut self, stamp_ns: i64, positions: &[f64]) {
         self.count += 1;
         match self.span_ns() {
-            Some((_, last)) if stamp_ns <= last => self.backward += 1,
+            Some((_, last)) if stamp_ns < last => {
+                self.backward += 1;
+                self.first_backward_ns.get_or_insert((last, stamp_ns));
+            }
+            // Told again.
+            Some((_, last)) if stamp_ns == last => {}
             Some((_, last)) => self.extend(stamp_ns, positions, stamp_ns.saturating_sub(last)),
             None => self.turn(stamp_ns, positions, 0),
         }
-        if self.stamps_ns.len() > MOST_TURNS {
+        if self.stamps_ns.len() > MOST_TURNS || self.positions.len() > MOST_POSITIONS {
             self.coarsen();
         }
     }
@@ -106,7 +124,7 @@ impl Track {
         let Some(start_ns) = self.stamps_ns.last() else { return false };
         let start = self.positions.len().saturating_sub(count);
         let start = self.positions.get(start..).unwrap_or_default();
-        let time = (stamp_ns - start_ns) as f64;
+        let time = stamp_ns.saturating_sub(*start_ns) as f64;
         let mut possible = true;
         for ((slopes, from), to) in self.slopes.iter_mut().zip(start).zip(positions) {
             let rise = to - from;
@@ -135,7 +153,12 @@ impl Track {
         }
         coarse.finish();
         let last = self.last.take();
-        *self = Self { count: self.count, backward: self.backward, ..coarse };
+        *self = Self {
+            count: self.count,
+            backward: self.backward,
+            first_backward_ns: self.first_backward_ns,
+            ..coarse
+        };
         if let Some((stamp, positions, gap)) = last {
             self.extend(stamp, &positions, gap);
         }
@@ -170,10 +193,10 @@ impl Track {
             .min_by_key(|(stamp, _)| stamp.abs_diff(stamp_ns))
     }
 
-    /// How far the joint that moves most moves between two times, radians or metres.
+    /// How far the joint that moves most is seen to move between two times, radians or metres.
     ///
-    /// What happens in gaps longer than `dense_ns` nobody knows: there, only samples count.
-    pub(super) fn motion(&self, from_ns: i64, to_ns: i64, dense_ns: i64) -> f64 {
+    /// What it did in gaps longer than `gap_ns` nobody knows.
+    pub(super) fn motion(&self, from_ns: i64, to_ns: i64, gap_ns: i64) -> f64 {
         let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); self.names.len()];
         let mut see = |positions: &[f64]| {
             for (range, position) in ranges.iter_mut().zip(positions) {
@@ -182,7 +205,7 @@ impl Track {
         };
         let Some((first, last)) = self.span_ns() else { return 0.0 };
         for stamp in [from_ns, to_ns].map(|stamp| stamp.clamp(first, last)) {
-            if let Some(piece) = self.piece(stamp).filter(|piece| piece.gap_ns <= dense_ns) {
+            if let Some(piece) = self.piece(stamp).filter(|piece| piece.gap_ns <= gap_ns) {
                 see(&piece.at(stamp));
             }
         }
@@ -207,8 +230,9 @@ pub(super) struct Piece<'a> {
 impl Piece<'_> {
     /// Positions at a time within the piece.
     pub(super) fn at(&self, stamp_ns: i64) -> Vec<f64> {
-        let length = (self.end_ns - self.start_ns) as f64;
-        let share = if length > 0.0 { (stamp_ns - self.start_ns) as f64 / length } else { 0.0 };
+        let since_start = |ns: i64| ns.saturating_sub(self.start_ns) as f64;
+        let length = since_start(self.end_ns);
+        let share = if length > 0.0 { since_start(stamp_ns) / length } else { 0.0 };
         self.start.iter().zip(self.end).map(|(a, b)| a + share * (b - a)).collect()
     }
 }

@@ -87,6 +87,23 @@ impl<'a> CloudMessage<'a> {
 
     /// x, y and z of every point as stored, `width * height` of them, row by row.
     pub(crate) fn points(&self) -> Result<Vec<[f32; 3]>, WireProblem> {
+        self.stored()?.collect()
+    }
+
+    /// Whether there is a point.
+    pub(crate) fn has_point(&self) -> Result<bool, WireProblem> {
+        for point in self.stored()? {
+            let point = point?;
+            if point.iter().all(|c| c.is_finite()) && point != [0.0; 3] {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn stored(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<[f32; 3], WireProblem>> + '_, WireProblem> {
         let axes = [self.axis("x")?, self.axis("y")?, self.axis("z")?];
         let (width, height) = (self.width as usize, self.height as usize);
         let (point, row) = (self.point_step as usize, self.row_step as usize);
@@ -108,8 +125,8 @@ impl<'a> CloudMessage<'a> {
             return Err(WireProblem::new("data", problem));
         }
         let rows = self.data.chunks(row).take(height);
-        let points = rows.flat_map(|row| row.chunks(point).take(width));
-        points.map(|bytes| self.point(bytes, axes)).collect()
+        let points = rows.flat_map(move |row| row.chunks(point).take(width));
+        Ok(points.map(move |bytes| self.point(bytes, axes)))
     }
 
     fn point(&self, bytes: &[u8], axes: [(usize, u8); 3]) -> Result<[f32; 3], WireProblem> {

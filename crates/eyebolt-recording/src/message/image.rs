@@ -84,6 +84,37 @@ impl<'a> ImageMessage<'a> {
         }
     }
 
+    /// Whether a pixel has depth, of a picture in an encoding of depth.
+    pub(crate) fn has_depth(&self) -> Result<bool, WireProblem> {
+        let number = |bytes: [u8; 4]| match self.big_endian {
+            true => f32::from_be_bytes(bytes),
+            false => f32::from_le_bytes(bytes),
+        };
+        Ok(match self.encoding {
+            "32FC1" => self
+                .rows(4)?
+                .flat_map(|row| row.as_chunks::<4>().0)
+                .any(|bytes| number(*bytes).is_finite() && number(*bytes) > 0.0),
+            // In either order of the bytes.
+            _ => self
+                .rows(2)?
+                .flat_map(|row| row.as_chunks::<2>().0)
+                .any(|bytes| !matches!(bytes, [0, 0] | [u8::MAX, u8::MAX])),
+        })
+    }
+
+    /// Whether the data hold the picture, where its encoding is known.
+    pub(crate) fn check(&self) -> Result<(), WireProblem> {
+        let pixel_size = match self.encoding {
+            "mono8" | "8UC1" => 1,
+            "16UC1" | "mono16" => 2,
+            "rgb8" | "bgr8" => 3,
+            "32FC1" | "rgba8" | "bgra8" => 4,
+            _ => return Ok(()),
+        };
+        self.rows(pixel_size).map(drop)
+    }
+
     /// The picture as `[red, green, blue]`; `None` for encodings of no colour picture.
     pub(crate) fn rgb(&self) -> Result<Option<Vec<[u8; 3]>>, WireProblem> {
         fn pixels<const N: usize>(

@@ -6,8 +6,8 @@
 
 use super::wire::WireProblem;
 
-/// Largest picture, pixels.
-const MOST_PIXELS: u64 = 100_000_000;
+/// Largest picture, pixels: twice that of any depth camera, because a few bytes can claim so many.
+const MOST_PIXELS: u64 = 1 << 25;
 
 /// Bytes of width and height before the words.
 const SIZE_BYTES: usize = 8;

@@ -2,7 +2,7 @@
 
 use super::super::LARGEST_CHUNK;
 use super::super::zstd::Unzipper;
-use mcap::records::{Record, op};
+use super::fields::Fields;
 use std::io::Read;
 use std::ops::Range;
 
@@ -18,6 +18,8 @@ enum Source {
 
 /// Bytes of a chunk before its records, if the name of the compression is empty.
 const HEADER: usize = 40;
+/// Most bytes that LZ4 makes of one.
+const LARGEST_EXPANSION: u64 = 255;
 
 /// Decompresses one chunk after the other into memory that it keeps.
 #[derive(Default)]
@@ -30,23 +32,26 @@ pub(super) struct Unpacker {
 impl Unpacker {
     /// The records in the chunk with this body, their checksum checked.
     pub(super) fn unpack<'a>(&'a mut self, body: &'a [u8]) -> Result<&'a [u8], String> {
-        let parsed = mcap::parse_record(op::CHUNK, body).map_err(|error| error.to_string())?;
-        let Record::Chunk { header, data } = parsed else { return Err("no chunk".to_owned()) };
-        let size = header.uncompressed_size;
+        let mut fields = Fields::new(body);
+        let (_start_time, _end_time) = (fields.u64()?, fields.u64()?);
+        let (size, crc) = (fields.u64()?, fields.u32()?);
+        let compression = fields.text()?;
+        let stored = fields.u64()?;
+        let data = fields.bytes(stored)?;
         if size > LARGEST_CHUNK {
             let limit = LARGEST_CHUNK >> 20;
             return Err(format!("the chunk claims {size} bytes, more than {limit} MiB"));
         }
-        self.last = match header.compression.as_str() {
+        self.last = match compression {
             "" => Source::Body(HEADER..HEADER + data.len()),
             "zstd" => {
                 self.unzipper
-                    .unzip(&data, Some(size))
+                    .unzip(data, Some(size))
                     .map_err(|problem| format!("chunk: {problem}"))?;
                 Source::Zstd
             }
             "lz4" => {
-                self.lz4(&data, size)?;
+                self.lz4(data, size)?;
                 Source::Lz4
             }
             other => return Err(format!("compression \"{other}\" is not known")),
@@ -56,7 +61,7 @@ impl Unpacker {
             Source::Lz4 => &self.lz4,
             Source::Zstd => self.unzipper.bytes(),
         };
-        check(records, size, header.uncompressed_crc)?;
+        check(records, size, crc)?;
         Ok(records)
     }
 
@@ -70,8 +75,13 @@ impl Unpacker {
     }
 
     fn lz4(&mut self, data: &[u8], size: u64) -> Result<(), String> {
+        if size / LARGEST_EXPANSION > data.len() as u64 {
+            return Err(format!("{} bytes of LZ4 are never {size}", data.len()));
+        }
         self.lz4.clear();
+        self.lz4.reserve_exact(size as usize);
         let decoder = lz4_flex::frame::FrameDecoder::new(data);
+        // One more than there should be, which also has the decoder compare its checksum.
         let decoded = decoder.take(size + 1).read_to_end(&mut self.lz4);
         decoded.map(drop).map_err(|error| format!("the chunk cannot be decompressed: {error}"))
     }

@@ -2,8 +2,9 @@
 
 use super::super::{Encoding, Message, Place, Topic, ros_type};
 use super::MAGIC;
+use super::fields::Fields;
 use crate::error::RecordingError;
-use mcap::records::{Metadata, Record, op};
+use mcap::records::op;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
@@ -42,11 +43,21 @@ pub(super) fn or_damage(
 /// Schemas and channels met so far.
 #[derive(Default)]
 pub(super) struct Topics {
-    /// Message types by number.
-    schemas: BTreeMap<u16, String>,
-    /// Which of `topics` a channel's messages belong to.
-    channels: BTreeMap<u16, usize>,
+    met: Numbers,
+    /// From the summary, for messages whose channel stood in a chunk that is damaged.
+    summarised: Numbers,
     topics: Vec<Topic>,
+    /// Where in `topics` each is.
+    index_of: BTreeMap<Topic, usize>,
+}
+
+/// What numbers mean in one part of the file.
+#[derive(Default)]
+struct Numbers {
+    /// Message types.
+    schemas: BTreeMap<u16, String>,
+    /// Which of the topics a channel's messages belong to.
+    channels: BTreeMap<u16, usize>,
 }
 
 /// Bytes of a message before its data.
@@ -63,64 +74,102 @@ impl Topics {
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damaged: &dyn Fn(String) -> RecordingError,
     ) -> Result<(), Stop> {
-        // The others tell nothing of messages, and the library trusts some of their lengths.
-        if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
-            return Ok(());
+        if opcode != op::MESSAGE {
+            let defined = self.define(opcode, body, false);
+            return defined.map_err(|problem| Stop::Damage(damaged(problem)));
         }
-        let record = mcap::parse_record(opcode, body);
-        let problem = |text: String| Stop::Damage(damaged(text));
-        match record.map_err(|error| problem(error.to_string()))? {
-            Record::Schema { header, .. } => {
-                self.schemas.insert(header.id, ros_type(&header.name));
-            }
-            Record::Channel(channel) => self.channel(channel),
-            Record::Message { header, data } => {
-                let index = self.channels.get(&header.channel_id).copied();
-                let Some((index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?)))
-                else {
-                    let id = header.channel_id;
-                    return Err(problem(format!("a message of channel {id}, which is not known")));
-                };
-                let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
-                let message = Message {
-                    topic,
-                    topic_index: index,
-                    log_time_ns: i64::try_from(header.log_time).unwrap_or(i64::MAX),
-                    place: place(MESSAGE_HEADER, length),
-                    data: &data,
-                };
-                each(&message).map_err(Stop::Wanted)?;
-            }
-            _ => {}
-        }
-        Ok(())
+        let message = self.message(body, place);
+        each(&message.map_err(|problem| Stop::Damage(damaged(problem)))?).map_err(Stop::Wanted)
     }
 
-    fn channel(&mut self, channel: mcap::records::Channel) {
-        let topic = Topic {
-            name: channel.topic,
-            message_type: self.schemas.get(&channel.schema_id).cloned().unwrap_or_default(),
-            encoding: match channel.message_encoding.as_str() {
-                "cdr" => Encoding::Cdr,
-                "ros1" => Encoding::Ros1,
-                other => Encoding::Other(other.to_owned()),
-            },
+    /// Takes in a record of the summary.
+    pub(super) fn summary(&mut self, opcode: u8, body: &[u8]) {
+        // Only a help: the file is read without.
+        drop(self.define(opcode, body, true));
+    }
+
+    fn message<'a>(
+        &'a self,
+        body: &'a [u8],
+        place: &dyn Fn(u64, u32) -> Place,
+    ) -> Result<Message<'a>, String> {
+        let mut fields = Fields::new(body);
+        let channel = fields.u16()?;
+        let (_sequence, log_time, _publish_time) = (fields.u32()?, fields.u64()?, fields.u64()?);
+        let data = fields.rest();
+        let index = self.met.channels.get(&channel).or(self.summarised.channels.get(&channel));
+        let Some((index, topic)) = index.and_then(|i| Some((*i, self.topics.get(*i)?))) else {
+            return Err(format!("a message of channel {channel}, which is not known"));
         };
-        // Chunks repeat their channels, and several publishers share a topic.
-        let known = self.topics.iter().position(|other| *other == topic);
-        let index = known.unwrap_or_else(|| {
-            self.topics.push(topic);
-            self.topics.len() - 1
-        });
-        self.channels.insert(channel.id, index);
+        let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
+        Ok(Message {
+            topic,
+            topic_index: index,
+            log_time_ns: i64::try_from(log_time).unwrap_or(i64::MAX),
+            place: place(MESSAGE_HEADER, length),
+            data,
+        })
+    }
+
+    /// Takes in a schema or channel; the others tell nothing of messages.
+    fn define(&mut self, opcode: u8, body: &[u8], summary: bool) -> Result<(), String> {
+        let mut fields = Fields::new(body);
+        let numbers = if summary { &mut self.summarised } else { &mut self.met };
+        match opcode {
+            op::SCHEMA => {
+                let (id, name) = (fields.u16()?, ros_type(fields.text()?));
+                let known = numbers.schemas.entry(id).or_insert_with(|| name.clone());
+                same(*known == name, || format!("schema {id} is defined twice"))
+            }
+            op::CHANNEL => {
+                let (id, schema) = (fields.u16()?, fields.u16()?);
+                let name = fields.text()?.to_owned();
+                let encoding = match fields.text()? {
+                    "cdr" => Encoding::Cdr,
+                    "ros1" => Encoding::Ros1,
+                    other => Encoding::Other(other.to_owned()),
+                };
+                let summarised = || self.summarised.schemas.get(&schema);
+                let message_type = match self.met.schemas.get(&schema).or_else(summarised) {
+                    Some(name) => name.clone(),
+                    // Zero is of messages that need none.
+                    None if schema == 0 => String::new(),
+                    None => return Err(format!("a channel of schema {schema}, which is unknown")),
+                };
+                let topic = Topic { name, message_type, encoding };
+                // Chunks repeat their channels, and several publishers share a topic.
+                let index = *self.index_of.entry(topic).or_insert_with_key(|topic| {
+                    self.topics.push(topic.clone());
+                    self.topics.len() - 1
+                });
+                let numbers = if summary { &mut self.summarised } else { &mut self.met };
+                let known = *numbers.channels.entry(id).or_insert(index);
+                same(known == index, || format!("channel {id} is defined twice"))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
-/// What a metadata record says.
-pub(super) fn metadata(body: &[u8]) -> Result<Metadata, String> {
-    match mcap::parse_record(op::METADATA, body) {
-        Ok(Record::Metadata(metadata)) => Ok(metadata),
-        Ok(_) => Err("no metadata".to_owned()),
-        Err(error) => Err(error.to_string()),
+/// A number may be defined again, if it stays the same.
+fn same(same: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
+    if same { Ok(()) } else { Err(problem()) }
+}
+
+/// What a metadata record called `name` says; `None` of one with another name.
+pub(super) fn metadata(
+    body: &[u8],
+    name: &str,
+) -> Result<Option<BTreeMap<String, String>>, String> {
+    let mut fields = Fields::new(body);
+    if fields.text()? != name {
+        return Ok(None);
     }
+    let length = u64::from(fields.u32()?);
+    let mut fields = Fields::new(fields.bytes(length)?);
+    let mut entries = BTreeMap::new();
+    while !fields.rest().is_empty() {
+        entries.insert(fields.text()?.to_owned(), fields.text()?.to_owned());
+    }
+    Ok(Some(entries))
 }

@@ -1,0 +1,142 @@
+//! Pictures as a scan meets them: of which kind they are, and which of them are of use.
+
+use crate::bag::Locator;
+use crate::message::{
+    CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, is_depth_encoding,
+    types,
+};
+
+/// Pictures of one topic.
+#[derive(Debug, Default)]
+pub(in super::super) struct Pictures {
+    pub(in super::super) kind: PictureKind,
+    /// All, whether of use or not, in the order of the bag.
+    pub(in super::super) frames: Vec<FrameEntry>,
+}
+
+/// How pictures are stored, told by the first one that can be read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in super::super) enum PictureKind {
+    Image {
+        encoding: String,
+        size: (u32, u32),
+    },
+    CompressedDepth,
+    Cloud {
+        size: (u32, u32),
+    },
+    /// Compressed, and no depth.
+    CompressedColor,
+    #[default]
+    Unknown,
+}
+
+impl PictureKind {
+    /// Whether distances can be read from it, the best kind first.
+    pub(in super::super) fn range_rank(&self) -> Option<u8> {
+        match self {
+            // Infrared pictures are grey of 16 bits too.
+            Self::Image { encoding, .. } if encoding == "mono16" => Some(3),
+            Self::Image { encoding, .. } if is_depth_encoding(encoding) => Some(0),
+            Self::CompressedDepth => Some(1),
+            Self::Cloud { .. } => Some(2),
+            _ => None,
+        }
+    }
+}
+
+/// When and where a picture was recorded.
+#[derive(Clone, Debug)]
+pub(in super::super) struct FrameEntry {
+    pub(in super::super) stamp_ns: i64,
+    pub(in super::super) locator: Locator,
+    /// Why it is of no use, if the scan could see that.
+    pub(in super::super) unfit: Option<Unfit>,
+}
+
+/// Why a picture is of no use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in super::super) enum Unfit {
+    /// Its message is damaged, or not like the first one.
+    Unreadable(Box<WireProblem>),
+    /// It is of depth, and has none.
+    Empty,
+}
+
+/// More pictures on one topic are not read: nine hours of 30 a second.
+const MOST_FRAMES: usize = 1 << 20;
+
+impl Pictures {
+    /// Takes in the message that `reader` is at the beginning of; the error says what is wrong.
+    pub(super) fn add(
+        &mut self,
+        message_type: &str,
+        reader: Result<WireReader<'_>, WireProblem>,
+        stamp_ns: i64,
+        locator: Locator,
+    ) -> Result<(), WireProblem> {
+        if self.frames.len() >= MOST_FRAMES {
+            let problem = format!("the topic has more than {MOST_FRAMES} pictures");
+            return Err(WireProblem::new("data", problem));
+        }
+        let read = reader.and_then(|mut reader| self.has_something(message_type, &mut reader));
+        let unfit = match &read {
+            Ok(true) => None,
+            Ok(false) => Some(Unfit::Empty),
+            Err(problem) => Some(Unfit::Unreadable(Box::new(problem.clone()))),
+        };
+        self.frames.push(FrameEntry { stamp_ns, locator, unfit });
+        read.map(drop)
+    }
+
+    /// Checks a message, without looking at all its pixels; whether there is something to see.
+    fn has_something(
+        &mut self,
+        message_type: &str,
+        reader: &mut WireReader<'_>,
+    ) -> Result<bool, WireProblem> {
+        let (kind, seen) = match message_type {
+            types::IMAGE => {
+                let image = ImageMessage::read(reader)?;
+                image.check()?;
+                let depth = is_depth_encoding(image.encoding);
+                let kind = PictureKind::Image {
+                    encoding: image.encoding.to_owned(),
+                    size: (image.width, image.height),
+                };
+                (kind, !depth || image.has_depth()?)
+            }
+            types::CLOUD => {
+                let cloud = CloudMessage::read(reader)?;
+                (PictureKind::Cloud { size: (cloud.width, cloud.height) }, cloud.has_point()?)
+            }
+            _ => match CompressedImageMessage::read(reader)?.is_depth() {
+                true => (PictureKind::CompressedDepth, true),
+                false => (PictureKind::CompressedColor, true),
+            },
+        };
+        match &self.kind {
+            PictureKind::Unknown => self.kind = kind,
+            // Clouds without order have as many points as were seen.
+            PictureKind::Cloud { .. } => {}
+            first if *first == kind => {}
+            first => {
+                let problem = format!("the picture is {}, the first {}", kind.text(), first.text());
+                return Err(WireProblem::new("encoding", problem));
+            }
+        }
+        Ok(seen)
+    }
+}
+
+impl PictureKind {
+    fn text(&self) -> String {
+        match self {
+            Self::Image { encoding, size } => format!("{} x {} in {encoding}", size.0, size.1),
+            Self::CompressedDepth => "compressed depth".to_owned(),
+            Self::CompressedColor => "a compressed picture".to_owned(),
+            Self::Cloud { size } => format!("a cloud of {} x {} points", size.0, size.1),
+            Self::Unknown => "nothing known".to_owned(),
+        }
+    }
+}
