@@ -96,8 +96,9 @@ fn overview(text: &mut String, info: &Info) -> fmt::Result {
     line("configurations", format!("{}{frames}", configurations.len()))?;
     line("joints", info.joints.join(" "))?;
     if let Some(clock) = info.clock {
+        let seen = if clock.seen_in_motion { ", by the motion in both" } else { "" };
         let applied = if clock.applied { ", made up for" } else { "" };
-        line("clocks", format!("{:+.3} s from depth to joints{applied}", clock.offset_s))?;
+        line("clocks", format!("{:.3} s from depth to joints{seen}{applied}", clock.offset_s))?;
     }
     Ok(())
 }

@@ -25,7 +25,7 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
     }
     if let Some(seconds) = answer.clock_offset_s {
         let _ =
-            writeln!(text, "  clocks of depth and joints are {seconds:.3} s apart: made up for");
+            writeln!(text, "  stamps of depth and joints are {seconds:.3} s apart: made up for");
     }
     if !answer.assumed_joints.is_empty() {
         let joints = answer.assumed_joints.join(", ");

@@ -9,6 +9,7 @@ mod copying;
 mod frames;
 mod pair;
 mod scan;
+mod skew;
 mod stamps;
 mod track;
 
@@ -28,6 +29,7 @@ use eyebolt_robot::JointPositions;
 use pair::{Kept, Paired};
 use scan::{Content, FrameEntry, Scan, TopicScan};
 use std::path::{Path, PathBuf};
+use track::Track;
 
 /// How to read a bag. The default finds out by itself what it can.
 #[derive(Clone, Debug, Default)]
@@ -308,8 +310,8 @@ impl BagRecording {
         let (range, joints) = (self.range_topic(), self.topic(self.chosen.joints));
         let Content::Joints(states) = &joints.content else { return Ok(()) };
         let tracks: Vec<_> = states.tracks().iter().collect();
-        let offset = stamps::clock_offset(&range.stamps, &joints.stamps);
         let frames = self.entries(self.chosen.range);
+        let offset = clock_offset(range, joints, frames, &tracks);
         let paired = pair::pair(frames, &tracks, offset, max_motion);
         if paired.kept.is_empty() {
             let first =
@@ -468,6 +470,22 @@ fn known_cloud_frame(bag: &Bag) -> Option<CloudFrame> {
         "body" => Some(CloudFrame::Body),
         _ => None,
     }
+}
+
+/// How the clocks of depth and joints differ: by the motion, else by the times of recording.
+fn clock_offset(
+    range: &TopicScan,
+    joints: &TopicScan,
+    frames: &[FrameEntry],
+    tracks: &[&Track],
+) -> Option<ClockOffset> {
+    let offset = stamps::clock_offset(&range.stamps, &joints.stamps);
+    let known = offset.filter(|offset| offset.applied).map_or(0.0, |offset| offset.seconds);
+    let Some(skew) = skew::skew(frames, tracks, (known * 1e9).round() as i64) else {
+        return offset;
+    };
+    let (seconds, uncertainty_s) = (known + skew.seconds, skew.uncertainty_s);
+    Some(ClockOffset { seconds, uncertainty_s, applied: true, seen: true })
 }
 
 /// What the bag says of the robot: its description, and the links where eyebolt wrote the bag.

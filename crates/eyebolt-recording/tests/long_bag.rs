@@ -72,6 +72,8 @@ fn depth(time: u64) -> Vec<u8> {
     cdr.extend([0, 0]);
     cdr.extend((2 * WIDTH).to_le_bytes());
     cdr.extend(PIXELS_BYTES.to_le_bytes());
+    // A frame without any depth would be left out.
+    cdr.extend([1, 1]);
     cdr
 }
 
@@ -122,7 +124,7 @@ fn write(path: &Path) -> u64 {
     while bag.at < LENGTH {
         let time = 1_000_000_000 + frames * FRAME_NS;
         let (configuration, within) = (frames / 45, frames % 45);
-        let way = configuration as f64 + within.saturating_sub(30) as f64 / 15.0;
+        let way = (configuration as f64 + within.saturating_sub(30) as f64 / 15.0).sin();
         for third in 0..3 {
             bag.message(
                 3,
@@ -132,7 +134,7 @@ fn write(path: &Path) -> u64 {
             );
         }
         bag.message(2, time, &camera_info(time), 0);
-        bag.message(1, time, &depth(time), u64::from(PIXELS_BYTES));
+        bag.message(1, time, &depth(time), u64::from(PIXELS_BYTES) - 2);
         frames += 1;
     }
     bag.record(15, &[0; 4], 0);

@@ -115,6 +115,9 @@ pub struct Clock {
     pub uncertainty_s: f64,
     /// Whether it was added.
     pub applied: bool,
+    /// Whether the motion that depth and joints both saw tells it; otherwise, the times of
+    /// recording do.
+    pub seen_in_motion: bool,
 }
 
 /// Frames with the arm in one place.
@@ -187,6 +190,7 @@ impl Info {
                 offset_s: offset.seconds,
                 uncertainty_s: offset.uncertainty_s,
                 applied: offset.applied,
+                seen_in_motion: offset.seen,
             }),
             joints,
             configurations: configurations(recording, arm)?,
@@ -260,6 +264,7 @@ fn reason(reason: &DropReason) -> &'static str {
         DropReason::Moving { .. } => "moving",
         DropReason::StaleJoints { .. } => "no_joint_state_near",
         DropReason::StampBackward => "stamp_backward",
+        DropReason::Empty => "empty",
         DropReason::Unreadable(_) => "unreadable",
     }
 }

@@ -42,6 +42,13 @@ pub(crate) struct Locator {
     place: Place,
 }
 
+#[cfg(test)]
+impl Default for Locator {
+    fn default() -> Self {
+        Self { file: 0, place: Place::Row(0) }
+    }
+}
+
 impl Locator {
     /// Number of the file among those of the bag.
     pub(crate) fn file(self) -> u32 {

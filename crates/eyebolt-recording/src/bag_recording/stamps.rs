@@ -68,13 +68,15 @@ impl Stamps {
 /// How the clocks behind two topics differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClockOffset {
-    /// To be added to stamps of depth for the clock of the joints, seconds: what the times tell at
-    /// which both were recorded.
+    /// To be added to stamps of depth for the clock of the joints, seconds.
     pub seconds: f64,
     /// By how much `seconds` may be wrong.
     pub uncertainty_s: f64,
-    /// Whether the clocks are so far apart that stamps of depth were shifted.
+    /// Whether it was added: the motion tells it, or the clocks are so far apart that they are two.
     pub applied: bool,
+    /// Whether the motion that depth and joints both saw tells it; otherwise, the times at which
+    /// both were recorded do.
+    pub seen: bool,
 }
 
 /// Delays differ by so much between two topics of one clock, for want of a better word: transport.
@@ -91,7 +93,7 @@ pub(super) fn clock_offset(depth: &Stamps, joints: &Stamps) -> Option<ClockOffse
     let spread = spread(depth_low, depth_high).max(spread(joints_low, joints_high));
     // Where nothing is shifted, the offset itself may be one of the clocks or of the transport.
     let uncertainty_s = if applied { spread } else { offset.abs() };
-    Some(ClockOffset { seconds: offset, uncertainty_s, applied })
+    Some(ClockOffset { seconds: offset, uncertainty_s, applied, seen: false })
 }
 
 #[cfg(test)]

@@ -103,6 +103,38 @@ impl<'a> ImageMessage<'a> {
         })
     }
 
+    /// Depth as stored of about `count` pixels, the same ones in every picture of a size.
+    pub(crate) fn depth_samples(&self, count: usize) -> Result<Vec<f32>, WireProblem> {
+        let pixel_size = if self.encoding == "32FC1" { 4 } else { 2 };
+        let rows = self.rows(pixel_size)?;
+        let pixels = self.width as usize * self.height as usize;
+        // One more, so that samples do not stand in columns.
+        let stride = pixels / count.max(1) + 1;
+        let mut samples = Vec::with_capacity(pixels / stride + 1);
+        let (mut next, mut start) = (0, 0);
+        for row in rows {
+            let end = start + self.width as usize;
+            while next < end {
+                samples.push(self.number(row, next - start, pixel_size));
+                next += stride;
+            }
+            start = end;
+        }
+        Ok(samples)
+    }
+
+    /// The number of a pixel of `size` bytes in a row.
+    fn number(&self, row: &[u8], pixel: usize, size: usize) -> f32 {
+        let bytes = row.get(pixel * size..(pixel + 1) * size).unwrap_or_default();
+        match (bytes, self.big_endian) {
+            ([a, b], false) => f32::from(u16::from_le_bytes([*a, *b])),
+            ([a, b], true) => f32::from(u16::from_be_bytes([*a, *b])),
+            ([a, b, c, d], false) => f32::from_le_bytes([*a, *b, *c, *d]),
+            ([a, b, c, d], true) => f32::from_be_bytes([*a, *b, *c, *d]),
+            _ => 0.0,
+        }
+    }
+
     /// Whether the data hold the picture, where its encoding is known.
     pub(crate) fn check(&self) -> Result<(), WireProblem> {
         let pixel_size = match self.encoding {

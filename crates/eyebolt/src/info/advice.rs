@@ -11,6 +11,8 @@ const LITTLE_DEPTH: f64 = 0.3;
 const PLAUSIBLE_M: (f64, f64) = (0.1, 12.0);
 /// Delays between depth and joints beyond this are worth a word, seconds.
 const LATE_S: f64 = 0.15;
+/// Stamps nearer than this are as good as one clock's, seconds.
+const SAME_S: f64 = 0.05;
 
 /// Sentences, the most important first.
 pub(super) fn advice(info: &Info) -> Vec<String> {
@@ -114,19 +116,23 @@ fn depth(info: &Info, advice: &mut Vec<String>) {
 
 fn clock(info: &Info, advice: &mut Vec<String>) {
     let Some(clock) = info.clock else { return };
-    if clock.applied {
+    let apart_s = clock.offset_s.abs();
+    if clock.applied && apart_s > clock.uncertainty_s.max(SAME_S) {
+        let how = if clock.seen_in_motion {
+            "by the motion in both"
+        } else {
+            "by the times of recording"
+        };
         advice.push(format!(
-            "depth and joints are stamped by clocks {:.3} s apart, which was made up for to {:.3} s: \
-             stamp both by one clock",
-            clock.offset_s.abs(),
+            "stamps of depth and joints are {apart_s:.3} s apart {how}, which was made up for to \
+             {:.3} s: stamp both by one clock",
             clock.uncertainty_s
         ));
-    } else if clock.offset_s.abs() > LATE_S {
+    } else if !clock.applied && apart_s > LATE_S {
         let later = if clock.offset_s > 0.0 { "depth" } else { "joint states" };
         advice.push(format!(
-            "{later} came {:.2} s later after their stamps than the other: frames near motion are \
-             left out; synchronise the clocks if they are of two computers",
-            clock.offset_s.abs()
+            "{later} came {apart_s:.2} s later after their stamps than the other: frames near motion \
+             are left out; synchronise the clocks if they are of two computers"
         ));
     }
 }

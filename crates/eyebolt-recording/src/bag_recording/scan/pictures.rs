@@ -7,11 +7,15 @@ use crate::message::{
 };
 
 /// Pictures of one topic.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(in super::super) struct Pictures {
     pub(in super::super) kind: PictureKind,
     /// All, whether of use or not, in the order of the bag.
     pub(in super::super) frames: Vec<FrameEntry>,
+    /// Some pixels of the last depth image.
+    samples: Vec<f32>,
+    /// How many of them differ from those before, until it is noted.
+    change: f32,
 }
 
 /// How pictures are stored, told by the first one that can be read.
@@ -52,6 +56,8 @@ pub(in super::super) struct FrameEntry {
     pub(in super::super) locator: Locator,
     /// Why it is of no use, if the scan could see that.
     pub(in super::super) unfit: Option<Unfit>,
+    /// Share of the pixels whose depth differs from the last image's; NaN where nobody knows.
+    pub(in super::super) change: f32,
 }
 
 /// Why a picture is of no use.
@@ -63,8 +69,19 @@ pub(in super::super) enum Unfit {
     Empty,
 }
 
+/// Pixels that tell whether something moves.
+const SAMPLES: usize = 4096;
+/// Depth that differs by this share is another thing's, and not noise.
+const DIFFERENT: f32 = 0.03;
 /// More pictures on one topic are not read: nine hours of 30 a second.
 const MOST_FRAMES: usize = 1 << 20;
+
+impl Default for Pictures {
+    fn default() -> Self {
+        let kind = PictureKind::Unknown;
+        Self { kind, frames: Vec::new(), samples: Vec::new(), change: f32::NAN }
+    }
+}
 
 impl Pictures {
     /// Takes in the message that `reader` is at the beginning of; the error says what is wrong.
@@ -85,8 +102,22 @@ impl Pictures {
             Ok(false) => Some(Unfit::Empty),
             Err(problem) => Some(Unfit::Unreadable(Box::new(problem.clone()))),
         };
-        self.frames.push(FrameEntry { stamp_ns, locator, unfit });
+        let change = std::mem::replace(&mut self.change, f32::NAN);
+        self.frames.push(FrameEntry { stamp_ns, locator, unfit, change });
         read.map(drop)
+    }
+
+    /// Share of `samples` that differ from the last ones, which they replace.
+    fn changed(&mut self, samples: Vec<f32>) -> f32 {
+        let last = std::mem::replace(&mut self.samples, samples);
+        if last.len() != self.samples.len() {
+            return f32::NAN;
+        }
+        let known = last.iter().zip(&self.samples).filter(|(a, b)| **a > 0.0 && **b > 0.0);
+        let (count, changed) = known.fold((0_u32, 0_u32), |(count, changed), (a, b)| {
+            (count + 1, changed + u32::from((a - b).abs() > DIFFERENT * a))
+        });
+        changed as f32 / count as f32
     }
 
     /// Checks a message, without looking at all its pixels; whether there is something to see.
@@ -104,6 +135,9 @@ impl Pictures {
                     encoding: image.encoding.to_owned(),
                     size: (image.width, image.height),
                 };
+                if depth {
+                    self.change = self.changed(image.depth_samples(SAMPLES)?);
+                }
                 (kind, !depth || image.has_depth()?)
             }
             types::CLOUD => {
