@@ -11,42 +11,44 @@ use std::path::{Path, PathBuf};
 pub struct RecordingArguments {
     /// Folder with a recording.toml, or a bag: MCAP, rosbag2 (file or folder) or ROS 1
     pub recording: PathBuf,
-    #[command(flatten, next_help_heading = "Bags")]
+    #[command(flatten)]
     pub bag: BagArguments,
 }
+
+const BAGS: &str = "Bags";
 
 /// How to read a bag.
 #[derive(Debug, clap::Args)]
 pub struct BagArguments {
     /// Depth images (16UC1, 32FC1, compressedDepth) or clouds, where several topics have them
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     depth_topic: Option<String>,
     /// Intrinsics of the depth, where they are not beside it
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     camera_info_topic: Option<String>,
     /// Intrinsics of the depth from a camera_info.yaml instead of a topic
-    #[arg(long, value_name = "FILE", conflicts_with = "camera_info_topic")]
+    #[arg(long, help_heading = BAGS, value_name = "FILE", conflicts_with = "camera_info_topic")]
     camera_info: Option<PathBuf>,
     /// Joint states, where several topics have them
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     joint_topic: Option<String>,
     /// Robot description, where several topics have one
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     description_topic: Option<String>,
     /// Colour pictures registered to the depth, for the overlays
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     color_topic: Option<String>,
     /// Masks of the arm
-    #[arg(long, value_name = "TOPIC")]
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     mask_topic: Option<String>,
     /// Frame of the points of a PointCloud2, where name and points do not tell
-    #[arg(long, value_name = "FRAME")]
+    #[arg(long, help_heading = BAGS, value_name = "FRAME")]
     cloud_frame: Option<CloudFrameName>,
     /// How far a joint may turn while a frame is taken, degrees [default: what the frames at rest tell]
-    #[arg(long, value_name = "DEG", value_parser = positive)]
+    #[arg(long, help_heading = BAGS, value_name = "DEG", value_parser = positive)]
     max_motion_deg: Option<f64>,
     /// Use what can be read of a damaged bag
-    #[arg(long)]
+    #[arg(long, help_heading = BAGS)]
     partial: bool,
 }
 
