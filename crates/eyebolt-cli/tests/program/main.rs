@@ -1,9 +1,11 @@
 //! The program from outside: exit status, files and what it says.
 
 mod answer;
+mod convert;
 mod export;
 mod files;
 mod good;
+mod info;
 mod messages;
 mod outcome;
 mod program;

@@ -76,3 +76,14 @@ fn timing_is_added_on_request() {
     assert!(timing.contains_key("record") && timing.values().all(|ms| ms.as_f64() >= Some(0.0)));
     assert!((ms("total") - stages).abs() < 1e-6);
 }
+
+#[test]
+fn of_more_configurations_than_wanted_the_rest_is_said_to_be_spare() {
+    let desk = Desk::new();
+    let ended = desk.calibrate(&["--max-configurations", "4"]);
+    let file = if ended.code == Some(0) { "calibration.json" } else { "calibration.rejected.json" };
+    let answer: Value = serde_json::from_slice(&fs::read(desk.file(file)).unwrap()).unwrap();
+    assert_eq!(answer["spare_configurations"], 1);
+    assert_eq!(answer["configurations"].as_array().unwrap().len(), 4);
+    assert!(ended.out.contains("1 more configurations not needed"), "{}", ended.out);
+}
