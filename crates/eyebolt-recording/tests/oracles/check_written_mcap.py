@@ -9,6 +9,7 @@ where one is given. Prints what was compared; ends with an error at the first di
 """
 
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +69,8 @@ def main():
     assert sum(counts.values()) == summary.statistics.message_count == sum(map(len, second.values()))
 
     if folder:
+        described = folder / "recording.toml"
+        names = tomllib.loads(described.read_text())["frames"]["joint_names"] if described.exists() else None
         depths = [d for t, k, _, _, d in first if k == "sensor_msgs/msg/Image" and d.encoding in ("32FC1", "16UC1")]
         states = [d for _, k, _, _, d in first if k == "sensor_msgs/msg/JointState"]
         for index, (image, state) in enumerate(zip(depths, states, strict=True)):
@@ -76,7 +79,7 @@ def main():
             stored = np.load(folder / depth_pattern.format(index))
             assert np.array_equal(seen, np.where(np.isfinite(stored) & (stored > 0), stored, 0)), index
             joints = np.load(folder / joints_pattern.format(index)).ravel()
-            assert np.array_equal(np.array(state.position), joints), index
+            assert dict(zip(state.name, state.position)) == dict(zip(names or state.name, joints)), index
         print(f"{len(depths)} depth images and joint states are the folder's, bit for bit")
     print("metadata:", {m.name: m.metadata for m in metadata})
     print("the same in both readers, field by field:", counts)
