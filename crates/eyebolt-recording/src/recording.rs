@@ -16,7 +16,7 @@ use std::path::Path;
 #[derive(Debug)]
 pub enum Recording {
     /// A folder of files with a `recording.toml`.
-    Folder(Folder),
+    Folder(Box<Folder>),
     /// A bag.
     Bag(Box<BagRecording>),
 }
@@ -33,7 +33,7 @@ impl Recording {
         if !described && is_bag(path) {
             return BagRecording::open(path, options).map(|bag| Self::Bag(Box::new(bag)));
         }
-        Folder::open(path).map(Self::Folder)
+        Folder::open(path).map(|folder| Self::Folder(Box::new(folder)))
     }
 
     /// The camera, unless the frames are clouds without one.

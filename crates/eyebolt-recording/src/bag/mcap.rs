@@ -44,6 +44,9 @@ struct RecordHead {
     length: u64,
 }
 
+/// Takes a record and its body.
+type Visit<'a> = dyn FnMut(RecordHead, &[u8]) -> Result<(), RecordingError> + 'a;
+
 impl McapFile {
     pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
         let file = Self { path: path.to_path_buf(), length: 0, cache: ChunkCache::default() };
@@ -131,7 +134,7 @@ impl McapFile {
     fn records(
         &self,
         opcodes: &[u8],
-        visit: &mut dyn FnMut(RecordHead, &[u8]) -> Result<(), RecordingError>,
+        visit: &mut Visit<'_>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         let file = File::open(&self.path).map_err(|cause| self.unreadable(cause))?;
@@ -146,7 +149,7 @@ impl McapFile {
         reader: &mut BufReader<File>,
         mut at: u64,
         opcodes: &[u8],
-        visit: &mut dyn FnMut(RecordHead, &[u8]) -> Result<(), RecordingError>,
+        visit: &mut Visit<'_>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         let mut body = Vec::new();

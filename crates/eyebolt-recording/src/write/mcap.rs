@@ -92,7 +92,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// A failing output.
     pub fn finish(mut self) -> Result<(), WriteError> {
         self.writer.finish().map_err(failed)?;
-        self.writer.into_inner().flush().map_err(|cause| unwritable(cause))
+        self.writer.into_inner().flush().map_err(unwritable)
     }
 }
 
