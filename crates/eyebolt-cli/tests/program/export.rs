@@ -2,6 +2,7 @@
 
 use crate::good::{GOOD, parsed};
 use crate::program::{Desk, Ended, eyebolt, text};
+use eyebolt_recording::{StaticTransform, write_static_transforms};
 use nalgebra::Matrix4;
 use serde_json::{Value, json};
 use std::fs;
@@ -239,4 +240,28 @@ fn help_tells_direction_frames_and_formats() {
     ]) {
         assert!(help.out.contains(words), "no {words:?} in: {}", help.out);
     }
+}
+
+#[test]
+fn a_bag_tells_the_cameras_frames_too() {
+    let desk = Desk::new();
+    let (json, bag, other) = (desk.file("tf.json"), desk.file("tf.mcap"), desk.file("other.mcap"));
+    fs::write(&json, DRIVER).unwrap();
+    let transform = StaticTransform {
+        parent: "camera_link".to_owned(),
+        child: "depth_optical".to_owned(),
+        translation_m: [0.01, 0.02, 0.03],
+        rotation_xyzw: [-0.5, 0.5, -0.5, 0.5],
+    };
+    write_static_transforms(&[transform], 0, fs::File::create(&bag).unwrap()).unwrap();
+    let placed = |tree: &Path| export(&calibration(), "csv", &["--camera-tree", text(tree)]);
+    let (from_json, from_bag) = (placed(&json), placed(&bag));
+    assert_eq!((from_bag.code, &from_bag.out), (Some(0), &from_json.out), "{}", from_bag.err);
+    assert!((matrix(&from_bag.out) - base_from_camera()).amax() > 0.1, "the root is placed");
+    // An earlier calibration in it would contradict this one; a bag without the topic tells nothing.
+    assert_eq!(export(&calibration(), "mcap", &["-o", text(&other)]).code, Some(0));
+    let ended = placed(&other);
+    ended.assert_error(1, &["other.mcap", "base", "depth_optical"]);
+    write_static_transforms(&[], 0, fs::File::create(&bag).unwrap()).unwrap();
+    placed(&bag).assert_error(1, &["tf.mcap", "/tf_static", "no transforms"]);
 }
