@@ -1,8 +1,7 @@
-//! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`), messages compressed or not.
+//! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`).
 
 mod uri;
 
-use super::zstd::{MAGIC, Unzipper};
 use super::{BagFile, Encoding, LARGEST_CHUNK, Message, Place, Topic, ros_type};
 use crate::error::RecordingError;
 use rusqlite::limits::Limit;
@@ -113,7 +112,6 @@ impl SqliteFile {
     fn message_at(
         &self,
         row: &Row<'_>,
-        unzipper: &mut Unzipper,
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
@@ -128,17 +126,8 @@ impl SqliteFile {
         let Some((topic_index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
             return damage(self.bad_row(id, format!("there is no topic {topic_id}")));
         };
-        let data = match unzipped(data, unzipper) {
-            Ok(data) => data,
-            Err(problem) => return damage(self.bad_row(id, problem)),
-        };
         each(&Message { topic, topic_index, log_time_ns, place: Place::Row(id), data })
     }
-}
-
-/// The message, decompressed where it is compressed.
-fn unzipped<'a>(data: &'a [u8], unzipper: &'a mut Unzipper) -> Result<&'a [u8], String> {
-    if data.starts_with(&MAGIC) { unzipper.unzip(data, None) } else { Ok(data) }
 }
 
 impl BagFile for SqliteFile {
@@ -153,7 +142,6 @@ impl BagFile for SqliteFile {
         let failed = |error: rusqlite::Error| self.damaged(&error);
         let mut statement = connection.prepare(sql).map_err(failed)?;
         let mut rows = statement.query([]).map_err(failed)?;
-        let mut unzipper = Unzipper::default();
         let mut last = None;
         loop {
             match rows.next() {
@@ -164,7 +152,7 @@ impl BagFile for SqliteFile {
                         return damage(self.bad_row(last.unwrap_or(0), NOT_RISING.to_owned()));
                     }
                     last = id;
-                    self.message_at(row, &mut unzipper, each, damage)?;
+                    self.message_at(row, each, damage)?;
                 }
                 Ok(None) => return Ok(()),
                 // The database cannot be read on from here.
@@ -179,11 +167,6 @@ impl BagFile for SqliteFile {
         };
         let connection = self.connect()?;
         let sql = "SELECT data FROM messages WHERE id = ?1";
-        let data: Vec<u8> = connection
-            .query_row(sql, [id], |row| row.get(0))
-            .map_err(|error| self.damaged(&error))?;
-        let mut unzipper = Unzipper::default();
-        let message = unzipped(&data, &mut unzipper).map(<[u8]>::to_vec);
-        message.map_err(|problem| self.bad_row(id, problem))
+        connection.query_row(sql, [id], |row| row.get(0)).map_err(|error| self.damaged(&error))
     }
 }
