@@ -48,6 +48,12 @@ impl Locator {
     pub(crate) fn file(self) -> u32 {
         self.file
     }
+
+    /// Where in its file.
+    #[cfg(test)]
+    pub(super) fn place(self) -> Place {
+        self.place
+    }
 }
 
 /// A bag of one file or several.
@@ -217,7 +223,7 @@ impl Bag {
         let mut unzipper = Unzipper::default();
         let damage = std::cell::RefCell::new(damage);
         for (number, (file, path)) in (0..).zip(&self.files) {
-            let mut damaged = |error: RecordingError| (*damage.borrow_mut())(error.told_of(path));
+            let damaged = |error: RecordingError| (*damage.borrow_mut())(error.told_of(path));
             let mut with_file = |message: &Message<'_>| {
                 let locator = Locator { file: number, place: message.place };
                 if !zipped(message.data) {

@@ -85,16 +85,32 @@ impl SqliteFile {
         let sql = "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?1";
         let found = connection.query_row(sql, [table], |row| row.get::<_, String>(0)).optional();
         let found = found.map_err(|error| self.damaged(&error))?;
-        let plain = |sql: &String| {
-            let upper = sql.to_ascii_uppercase();
-            upper.starts_with("CREATE TABLE") && !upper.contains("GENERATED")
-        };
-        if found.as_ref().is_some_and(plain) {
+        // A virtual table is not listed as one in the words; computed columns are hidden.
+        let plain = found.is_some_and(|sql| sql.to_ascii_uppercase().starts_with("CREATE TABLE"));
+        let sql = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden != 0";
+        let computed: Result<i64, _> = connection.query_row(sql, [table], |row| row.get(0));
+        if plain && computed.map_err(|error| self.damaged(&error))? == 0 {
             return Ok(());
         }
         let problem = "the database has no such table, so it is no bag";
         let remedy = "Give the file or folder that `ros2 bag record` wrote";
         Err(RecordingError::invalid(&self.path, format!("table {table}"), problem, remedy))
+    }
+
+    /// What is missing at the end of the file; SQLite reads zeros in the place of half a page.
+    fn cut_short(&self, connection: &Connection) -> Option<RecordingError> {
+        let pragma = |name: &str| {
+            let value = connection.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
+            u64::try_from(value.ok()?).ok()
+        };
+        let should_be = pragma("page_count")?.checked_mul(pragma("page_size")?)?;
+        let length = std::fs::metadata(&self.path).ok()?.len();
+        if uri::has_more(&self.path) || length >= should_be {
+            return None;
+        }
+        let problem = format!("the file is cut short: it has {length} of {should_be} bytes");
+        let remedy = "Copy it again, or give --partial to use what can be read";
+        Some(RecordingError::invalid(&self.path, "database", problem, remedy))
     }
 
     fn damaged(&self, error: &rusqlite::Error) -> RecordingError {
@@ -137,6 +153,7 @@ impl BagFile for SqliteFile {
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         let connection = self.connect()?;
+        self.cut_short(&connection).map_or(Ok(()), &mut *damage)?;
         // In the order of the table, and never sorted: that could take any time and room.
         let sql = "SELECT id, topic_id, timestamp, data FROM messages NOT INDEXED";
         let failed = |error: rusqlite::Error| self.damaged(&error);
