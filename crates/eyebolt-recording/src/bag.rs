@@ -5,6 +5,8 @@ mod mcap;
 mod open;
 mod ros1;
 mod sqlite;
+#[cfg(test)]
+mod tests;
 mod zstd;
 
 pub(crate) use open::{Bag, Locator};

@@ -10,6 +10,8 @@ mod header;
 mod image;
 mod joint_state;
 mod rvl;
+#[cfg(test)]
+mod tests;
 mod transforms;
 mod wire;
 mod writer;

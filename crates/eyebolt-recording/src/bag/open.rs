@@ -3,6 +3,7 @@
 use super::mcap::McapFile;
 use super::ros1::Ros1Bag;
 use super::sqlite::SqliteFile;
+use super::zstd::Unzipper;
 use super::{BagFile, Message, Place, mcap, sqlite, zstd};
 use crate::error::RecordingError;
 use crate::file::read_text;
@@ -53,6 +54,12 @@ impl Locator {
     /// Number of the file among those of the bag.
     pub(crate) fn file(self) -> u32 {
         self.file
+    }
+
+    /// Where in its file.
+    #[cfg(test)]
+    pub(super) fn place(self) -> Place {
+        self.place
     }
 }
 
@@ -221,11 +228,26 @@ impl Bag {
         each: &mut dyn FnMut(Locator, &Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
+        let mut unzipper = Unzipper::default();
+        let damage = std::cell::RefCell::new(damage);
         for (number, (file, path)) in (0..).zip(&self.files) {
+            let damaged = |error: RecordingError| (*damage.borrow_mut())(error.told_of(path));
             let mut with_file = |message: &Message<'_>| {
-                each(Locator { file: number, place: message.place }, message)
+                let locator = Locator { file: number, place: message.place };
+                if !zipped(message.data) {
+                    return each(locator, message);
+                }
+                match unzipper.unzip(message.data, None) {
+                    Ok(data) => each(locator, &Message { data, ..*message }),
+                    Err(problem) => {
+                        let time_s = message.log_time_ns as f64 * 1e-9;
+                        let field = format!("{} of {time_s:.3} s", message.topic.name);
+                        let remedy = "Copy the bag again, or give --partial to go without it";
+                        damaged(RecordingError::invalid(path, field, problem, remedy))
+                    }
+                }
             };
-            file.scan(&mut with_file, &mut |error| damage(error.told_of(path)))
+            file.scan(&mut with_file, &mut |error| damaged(error))
                 .map_err(|error| error.told_of(path))?;
         }
         Ok(())
@@ -235,8 +257,24 @@ impl Bag {
     pub(crate) fn read(&self, locator: Locator) -> Result<Vec<u8>, RecordingError> {
         let file = self.files.get(locator.file as usize);
         let (file, path) = file.expect("a locator is of the bag that told it");
-        file.read(locator.place).map_err(|error| error.told_of(path))
+        let data = file.read(locator.place).map_err(|error| error.told_of(path))?;
+        if !zipped(&data) {
+            return Ok(data);
+        }
+        let mut unzipper = Unzipper::default();
+        match unzipper.unzip(&data, None) {
+            Ok(_) => Ok(unzipper.into_bytes()),
+            Err(problem) => {
+                let remedy = "The bag has changed since it was opened: open it again";
+                Err(RecordingError::invalid(path, "a message", problem, remedy))
+            }
+        }
     }
+}
+
+/// Whether a message is compressed by itself, as ROS 2 does it on demand in any kind of file.
+fn zipped(data: &[u8]) -> bool {
+    data.starts_with(&zstd::MAGIC)
 }
 
 /// The only bag in a folder without a description.

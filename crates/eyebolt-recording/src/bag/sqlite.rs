@@ -1,8 +1,7 @@
-//! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`), messages compressed or not.
+//! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`).
 
 mod uri;
 
-use super::zstd::{MAGIC, Unzipper};
 use super::{BagFile, Encoding, LARGEST_CHUNK, Message, Place, Topic, ros_type};
 use crate::error::RecordingError;
 use rusqlite::limits::Limit;
@@ -86,16 +85,32 @@ impl SqliteFile {
         let sql = "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?1";
         let found = connection.query_row(sql, [table], |row| row.get::<_, String>(0)).optional();
         let found = found.map_err(|error| self.damaged(&error))?;
-        let plain = |sql: &String| {
-            let upper = sql.to_ascii_uppercase();
-            upper.starts_with("CREATE TABLE") && !upper.contains("GENERATED")
-        };
-        if found.as_ref().is_some_and(plain) {
+        // A virtual table is not listed as one in the words; computed columns are hidden.
+        let plain = found.is_some_and(|sql| sql.to_ascii_uppercase().starts_with("CREATE TABLE"));
+        let sql = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden != 0";
+        let computed: Result<i64, _> = connection.query_row(sql, [table], |row| row.get(0));
+        if plain && computed.map_err(|error| self.damaged(&error))? == 0 {
             return Ok(());
         }
         let problem = "the database has no such table, so it is no bag";
         let remedy = "Give the file or folder that `ros2 bag record` wrote";
         Err(RecordingError::invalid(&self.path, format!("table {table}"), problem, remedy))
+    }
+
+    /// What is missing at the end of the file; SQLite reads zeros in the place of half a page.
+    fn cut_short(&self, connection: &Connection) -> Option<RecordingError> {
+        let pragma = |name: &str| {
+            let value = connection.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
+            u64::try_from(value.ok()?).ok()
+        };
+        let should_be = pragma("page_count")?.checked_mul(pragma("page_size")?)?;
+        let length = std::fs::metadata(&self.path).ok()?.len();
+        if uri::has_more(&self.path) || length >= should_be {
+            return None;
+        }
+        let problem = format!("the file is cut short: it has {length} of {should_be} bytes");
+        let remedy = "Copy it again, or give --partial to use what can be read";
+        Some(RecordingError::invalid(&self.path, "database", problem, remedy))
     }
 
     fn damaged(&self, error: &rusqlite::Error) -> RecordingError {
@@ -113,7 +128,6 @@ impl SqliteFile {
     fn message_at(
         &self,
         row: &Row<'_>,
-        unzipper: &mut Unzipper,
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
@@ -128,17 +142,8 @@ impl SqliteFile {
         let Some((topic_index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
             return damage(self.bad_row(id, format!("there is no topic {topic_id}")));
         };
-        let data = match unzipped(data, unzipper) {
-            Ok(data) => data,
-            Err(problem) => return damage(self.bad_row(id, problem)),
-        };
         each(&Message { topic, topic_index, log_time_ns, place: Place::Row(id), data })
     }
-}
-
-/// The message, decompressed where it is compressed.
-fn unzipped<'a>(data: &'a [u8], unzipper: &'a mut Unzipper) -> Result<&'a [u8], String> {
-    if data.starts_with(&MAGIC) { unzipper.unzip(data, None) } else { Ok(data) }
 }
 
 impl BagFile for SqliteFile {
@@ -148,12 +153,12 @@ impl BagFile for SqliteFile {
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
         let connection = self.connect()?;
+        self.cut_short(&connection).map_or(Ok(()), &mut *damage)?;
         // In the order of the table, and never sorted: that could take any time and room.
         let sql = "SELECT id, topic_id, timestamp, data FROM messages NOT INDEXED";
         let failed = |error: rusqlite::Error| self.damaged(&error);
         let mut statement = connection.prepare(sql).map_err(failed)?;
         let mut rows = statement.query([]).map_err(failed)?;
-        let mut unzipper = Unzipper::default();
         let mut last = None;
         loop {
             match rows.next() {
@@ -164,7 +169,7 @@ impl BagFile for SqliteFile {
                         return damage(self.bad_row(last.unwrap_or(0), NOT_RISING.to_owned()));
                     }
                     last = id;
-                    self.message_at(row, &mut unzipper, each, damage)?;
+                    self.message_at(row, each, damage)?;
                 }
                 Ok(None) => return Ok(()),
                 // The database cannot be read on from here.
@@ -179,11 +184,6 @@ impl BagFile for SqliteFile {
         };
         let connection = self.connect()?;
         let sql = "SELECT data FROM messages WHERE id = ?1";
-        let data: Vec<u8> = connection
-            .query_row(sql, [id], |row| row.get(0))
-            .map_err(|error| self.damaged(&error))?;
-        let mut unzipper = Unzipper::default();
-        let message = unzipped(&data, &mut unzipper).map(<[u8]>::to_vec);
-        message.map_err(|problem| self.bad_row(id, problem))
+        connection.query_row(sql, [id], |row| row.get(0)).map_err(|error| self.damaged(&error))
     }
 }

@@ -8,17 +8,21 @@ use std::path::{Path, PathBuf};
 /// only read, and could not be opened in a folder that cannot be written. A URI can say that nobody
 /// writes to it; where a recorder left such files, what they hold is wanted.
 pub(super) fn untouched(path: &Path) -> PathBuf {
-    let beside = |ending: &str| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(ending);
-        std::fs::metadata(name).is_ok_and(|file| file.len() > 0)
-    };
     match path.to_str() {
-        Some(text) if cfg!(unix) && !beside("-wal") && !beside("-journal") => {
+        Some(text) if cfg!(unix) && !has_more(path) => {
             PathBuf::from(format!("file:{}?immutable=1", escaped(text)))
         }
         _ => path.to_path_buf(),
     }
+}
+
+/// Whether a recorder left files beside the database at `path` that belong to it.
+pub(super) fn has_more(path: &Path) -> bool {
+    ["-wal", "-journal"].into_iter().any(|ending| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(ending);
+        std::fs::metadata(name).is_ok_and(|file| file.len() > 0)
+    })
 }
 
 fn escaped(path: &str) -> String {
