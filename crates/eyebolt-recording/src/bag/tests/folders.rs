@@ -2,7 +2,7 @@
 
 use super::mcap_writer::{mcap, small};
 use super::{assert_says, file, fixture, open, scan_whole, strict};
-use crate::bag::{BagKind, looks_like_bag};
+use crate::bag::{BagKind, is_bag};
 use std::fs;
 use std::path::Path;
 
@@ -38,9 +38,9 @@ fn only_files_in_the_folder_are_listed() {
 fn descriptions_must_list_files() {
     let folder = tempfile::tempdir().unwrap();
     assert_says(open(folder.path()), &["no bag is in it"]);
-    assert!(!looks_like_bag(folder.path()));
+    assert!(!is_bag(folder.path()));
     describe(folder.path(), "[]");
-    assert!(looks_like_bag(folder.path()));
+    assert!(is_bag(folder.path()));
     assert_says(open(folder.path()), &["no bag is in it"]);
     for text in ["", "a: b", "rosbag2_bagfile_information: 3", "[1, 2", "\u{0}"] {
         fs::write(folder.path().join("metadata.yaml"), text).unwrap();
@@ -66,7 +66,7 @@ fn files_are_what_they_begin_with() {
     assert_eq!(open(&fixture("sqlite_file")).unwrap().kind(), BagKind::Sqlite);
     for bytes in [&b""[..], b"SQLite", b"text of any kind"] {
         let (_folder, path) = file("other.mcap", bytes);
-        assert!(!looks_like_bag(&path));
+        assert!(!is_bag(&path));
         assert_says(open(&path), &["other.mcap: kind of file: ", "neither MCAP nor SQLite"]);
     }
     assert_says(

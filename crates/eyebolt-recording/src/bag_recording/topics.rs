@@ -1,0 +1,116 @@
+//! The topics of a bag, for people, and what else a bag tells without being a recording.
+
+use super::choose::Chosen;
+use super::scan::{Scan, TopicScan};
+use super::{BagOptions, BagRecording};
+use crate::bag::Bag;
+use crate::error::RecordingError;
+use crate::message::StaticTransform;
+use std::path::Path;
+
+/// A topic of a bag, for people.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TopicSummary {
+    /// Name.
+    pub name: String,
+    /// Type of its messages, as in `sensor_msgs/Image`.
+    pub message_type: String,
+    /// What the messages are to the recording, where that is known: `depth`, `joints`...
+    pub role: Option<&'static str>,
+    /// Number of messages.
+    pub count: u64,
+    /// Bytes of all messages.
+    pub bytes: u64,
+    /// Messages a second, of topics with more than one.
+    pub rate_hz: Option<f64>,
+    /// The frame that its messages are in.
+    pub frame_id: Option<String>,
+    /// What is wrong with it, in words.
+    pub problems: Vec<String>,
+}
+
+impl BagRecording {
+    /// All topics, sorted by name.
+    pub fn topics(&self) -> Vec<TopicSummary> {
+        (0..self.scan.topics.len()).filter_map(|number| self.summary(number)).collect()
+    }
+
+    fn summary(&self, number: usize) -> Option<TopicSummary> {
+        let topic = self.scan.topics.get(number)?;
+        Some(summary(topic, self.role(number)))
+    }
+
+    /// What a topic is to the recording.
+    fn role(&self, number: usize) -> Option<&'static str> {
+        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
+        let roles = [
+            (Some(range), "depth"),
+            (camera_info, "intrinsics"),
+            (Some(joints), "joints"),
+            (description, "robot"),
+            (color, "color"),
+            (mask, "mask"),
+        ];
+        roles.into_iter().find(|(role, _)| *role == Some(number)).map(|(_, name)| name)
+    }
+}
+
+/// The topics of the bag at `path`, whether or not they make a recording.
+///
+/// # Errors
+///
+/// A file that cannot be read or is damaged (unless `partial` is asked for).
+pub fn list_topics(path: &Path, options: &BagOptions) -> Result<Vec<TopicSummary>, RecordingError> {
+    let bag = Bag::open(path, options.scratch())?;
+    let scan = Scan::new(&bag, options.partial)?;
+    Ok(scan.topics.iter().map(|topic| summary(topic, None)).collect())
+}
+
+/// The transforms on `/tf_static` of the bag at `path`, the last for each child.
+///
+/// # Errors
+///
+/// A file that cannot be read or is damaged (unless `partial` is asked for).
+pub fn static_transforms(
+    path: &Path,
+    options: &BagOptions,
+) -> Result<Vec<StaticTransform>, RecordingError> {
+    let bag = Bag::open(path, options.scratch())?;
+    Ok(Scan::new(&bag, options.partial)?.static_transforms)
+}
+
+fn summary(topic: &TopicScan, role: Option<&'static str>) -> TopicSummary {
+    let span_s = topic.last_ns.saturating_sub(topic.first_ns) as f64 * 1e-9;
+    let rate_hz = topic.count.saturating_sub(1) as f64 / span_s;
+    TopicSummary {
+        name: topic.name.clone(),
+        message_type: topic.message_type.clone(),
+        role,
+        count: topic.count,
+        bytes: topic.bytes,
+        rate_hz: Some(rate_hz).filter(|rate| *rate > 0.0 && rate.is_finite()),
+        frame_id: topic.frame_id.clone(),
+        problems: problems(topic),
+    }
+}
+
+fn problems(topic: &TopicScan) -> Vec<String> {
+    let mut problems = Vec::new();
+    if let Some((_, problem)) = &topic.first_problem {
+        problems.push(format!(
+            "{} messages cannot be read, the first because of {}: {}",
+            topic.unreadable, problem.field, problem.problem
+        ));
+    }
+    if topic.stamps.unset > 0 {
+        problems.push(format!(
+            "{} messages have no time stamp; the time of recording stands in",
+            topic.stamps.unset
+        ));
+    }
+    let (backward, _) = topic.backward();
+    if backward > 0 {
+        problems.push(format!("{backward} time stamps run backward"));
+    }
+    problems
+}
