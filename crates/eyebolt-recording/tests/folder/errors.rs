@@ -164,6 +164,23 @@ fn clouds_have_three_coordinates_and_masks_need_rows() {
 }
 
 #[test]
+fn frames_must_have_depth() {
+    for nothing in [0.0, f32::NAN, f32::INFINITY, -1.0] {
+        let sample = Sample::depth();
+        sample.write("depth_2.npy", &npy_f32(&[HEIGHT, WIDTH], &[nothing; PIXELS]));
+        assert_says(
+            sample.frame(),
+            &["depth_2.npy: depth: no pixel has depth", "Leave this frame"],
+        );
+    }
+    for nothing in [0.0, f32::NAN] {
+        let sample = Sample::cloud();
+        sample.write("xyz_2.npy", &npy_f32(&[HEIGHT, WIDTH, 3], &[nothing; 3 * PIXELS]));
+        assert_says(sample.frame(), &["xyz_2.npy: cloud: it has no point", "Leave this frame"]);
+    }
+}
+
+#[test]
 fn masks_must_not_be_empty() {
     let sample = Sample::depth();
     let empty = png(WIDTH, HEIGHT, ColorType::Grayscale, BitDepth::Eight, &[0; PIXELS]);

@@ -1,0 +1,96 @@
+//! Where the intrinsics come from.
+
+use super::sample::{Bag, CAMERA_INFO, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_NS};
+use super::writer;
+
+fn info(bag: &mut Bag, topic: &str, frame: &str, size: (u32, u32), focal: f64) {
+    let count = bag.on(topic).len() as i64;
+    let time = START_NS + count * MS;
+    bag.add(topic, CAMERA_INFO, time, writer::camera_info(time, frame, size, focal));
+}
+
+fn without_info() -> Bag {
+    Bag::sample().without(INFO_TOPIC)
+}
+
+fn focal(bag: &Bag) -> f64 {
+    bag.open().camera().unwrap().fx()
+}
+
+#[test]
+fn beside_the_picture_is_best() {
+    let mut bag = Bag::sample();
+    info(&mut bag, "/other/camera_info", FRAME, SIZE, 9.0);
+    assert_eq!(focal(&bag), 5.0);
+    bag.options.camera_info_topic = Some("/other/camera_info".to_owned());
+    assert_eq!(focal(&bag), 9.0);
+    bag.options.camera_info_topic = Some("/joint_states".to_owned());
+    bag.assert_says(&["--camera-info-topic", INFO_TOPIC, "/other/camera_info"]);
+}
+
+#[test]
+fn elsewhere_the_size_and_the_frame_must_agree() {
+    let mut bag = without_info();
+    info(&mut bag, "/a/camera_info", FRAME, (8, 6), 7.0);
+    info(&mut bag, "/b/camera_info", "other", SIZE, 8.0);
+    bag.assert_says(&[
+        "--camera-info-topic",
+        &format!("the intrinsics of {DEPTH_TOPIC}"),
+        "/a/camera_info",
+        "--camera-info",
+    ]);
+    info(&mut bag, "/c/camera_info", FRAME, SIZE, 9.0);
+    assert_eq!(focal(&bag), 9.0);
+    info(&mut bag, "/d/camera_info", FRAME, SIZE, 9.5);
+    bag.assert_says(&["several topics have the intrinsics", "/c/camera_info, /d/camera_info"]);
+}
+
+#[test]
+fn rectified_pictures_have_the_intrinsics_of_the_projection() {
+    let mut bag = without_info();
+    for message in bag.on(DEPTH_TOPIC) {
+        message.topic = "/camera/depth/image_rect_raw".to_owned();
+    }
+    info(&mut bag, INFO_TOPIC, FRAME, SIZE, 8.0);
+    assert_eq!(focal(&bag), 4.0);
+}
+
+#[test]
+fn a_file_stands_in() {
+    let (folder, path) = without_info().write();
+    let file = folder.path().join("info.yaml");
+    let text = "width: 4\nheight: 3\nk: [6.0, 0.0, 2.0, 0.0, 6.0, 1.5, 0.0, 0.0, 1.0]\n";
+    std::fs::write(&file, text).unwrap();
+    let options = eyebolt_recording::BagOptions { camera_info: Some(file), ..Default::default() };
+    let bag = eyebolt_recording::BagRecording::open(&path, &options).unwrap();
+    assert_eq!(bag.camera().unwrap().fx(), 6.0);
+    without_info().assert_says(&["no topic has the intrinsics", "--camera-info"]);
+}
+
+#[test]
+fn one_topic_tells_one_camera() {
+    let mut bag = Bag::sample();
+    info(&mut bag, INFO_TOPIC, FRAME, SIZE, 5.0);
+    assert_eq!(focal(&bag), 5.0);
+    info(&mut bag, INFO_TOPIC, FRAME, SIZE, 5.25);
+    bag.assert_says(&[INFO_TOPIC, "the intrinsics change at 1700000000.002 s", "--camera-info"]);
+    let mut sizes = Bag::sample();
+    info(&mut sizes, INFO_TOPIC, FRAME, (8, 6), 5.0);
+    sizes.assert_says(&["the intrinsics change"]);
+}
+
+#[test]
+fn a_camera_without_calibration_is_refused() {
+    let mut bag = without_info();
+    info(&mut bag, INFO_TOPIC, FRAME, SIZE, 0.0);
+    bag.assert_says(&[INFO_TOPIC, "the focal length is 0 x 0", "--camera-info"]);
+}
+
+#[test]
+fn a_camera_of_another_size_is_refused_with_the_frame() {
+    let mut bag = without_info();
+    info(&mut bag, INFO_TOPIC, FRAME, (8, 6), 5.0);
+    let parts =
+        [DEPTH_TOPIC, "at 1700000000.005 s", "the image is 4 x 3", "is 8 x 6", "--camera-info"];
+    super::sample::assert_says(bag.open().read_frame(0), &parts);
+}

@@ -1,0 +1,127 @@
+//! Time stamps that lie.
+
+use super::sample::{Bag, DEPTH_TOPIC, INFO_TOPIC, MS, START_NS};
+
+const JOINTS: &str = "/joint_states";
+
+#[test]
+fn stamps_that_nobody_set_are_replaced_and_told() {
+    let mut bag = Bag::sample();
+    bag.restamp(DEPTH_TOPIC, |_, _| 0);
+    let read = bag.open();
+    assert_eq!(read.frame_names(), Bag::sample().open().frame_names());
+    assert_eq!(
+        read.problems(DEPTH_TOPIC),
+        ["60 messages have no time stamp; the time of recording stands in"]
+    );
+    assert_eq!(read.clock_offset(), None);
+    bag.restamp(JOINTS, |_, _| 0);
+    assert_eq!(bag.open().frame_names(), Bag::sample().open().frame_names());
+}
+
+#[test]
+fn a_few_stamps_that_run_backward_are_dropped() {
+    let mut bag = Bag::sample();
+    bag.restamp(DEPTH_TOPIC, |index, stamp| if index == 7 { stamp - 150 * MS } else { stamp });
+    bag.restamp(JOINTS, |index, stamp| if index % 150 == 9 { stamp - 25 * MS } else { stamp });
+    let bag = bag.open();
+    let (index, reason) = bag.reasons().remove(0);
+    assert_eq!((index, reason.as_str()), (7, "its time stamp is not later than the one before"));
+    assert_eq!(bag.problems(DEPTH_TOPIC), ["1 time stamps run backward"]);
+    assert_eq!(bag.problems(JOINTS), ["4 time stamps run backward"]);
+    let kept = Bag::sample().open();
+    assert_eq!(bag.frame_names().len(), kept.frame_names().len() - 1);
+    assert_eq!(bag.depth_m(7), kept.depth_m(8));
+}
+
+#[test]
+fn many_are_an_error() {
+    for topic in [DEPTH_TOPIC, JOINTS] {
+        let mut bag = Bag::sample();
+        bag.restamp(topic, |index, stamp| if index % 10 == 5 { stamp - 250 * MS } else { stamp });
+        bag.assert_says(&[
+            topic,
+            "stamps run backward, first from 1700000000.",
+            "Two programs publish there",
+        ]);
+    }
+    // As in an endless loop of the same recording.
+    let mut bag = Bag::sample();
+    bag.restamp(JOINTS, |index, stamp| if index >= 300 { stamp - 3000 * MS } else { stamp });
+    bag.assert_says(&[JOINTS, "stamps run backward"]);
+}
+
+#[test]
+fn stamps_told_again_do_no_harm() {
+    let mut bag = Bag::sample();
+    for message in bag.clone().messages.into_iter().filter(|m| m.topic == JOINTS) {
+        bag.messages.push(message);
+    }
+    let bag = bag.open();
+    assert_eq!(bag.problems(JOINTS), Vec::<String>::new());
+    assert_eq!(bag.frame_names(), Bag::sample().open().frame_names());
+}
+
+#[test]
+fn clocks_of_their_own_are_shifted_and_told() {
+    let mut bag = Bag::sample();
+    // As cameras do that count from when they were switched on.
+    bag.restamp(DEPTH_TOPIC, |_, stamp| stamp - START_NS + 1000 * MS);
+    let read = bag.open();
+    let offset = read.clock_offset().unwrap();
+    assert!(offset.applied && (offset.seconds - 1_699_999_999.0).abs() < 1e-3, "{offset:?}");
+    assert_eq!(read.frame_names(), Bag::sample().open().frame_names());
+    assert_eq!(read.stamp_ns(0), Some(1005 * MS));
+    // The other way round.
+    let mut bag = Bag::sample();
+    bag.restamp(JOINTS, |_, stamp| stamp - START_NS + 1000 * MS);
+    let read = bag.open();
+    assert!(read.clock_offset().unwrap().applied);
+    assert_eq!(read.frame_names(), Bag::sample().open().frame_names());
+}
+
+#[test]
+fn a_delay_of_the_depth_is_told_and_makes_it_careful() {
+    let mut bag = Bag::sample();
+    for message in bag.on(DEPTH_TOPIC) {
+        message.log_time_ns += 80 * MS;
+    }
+    let read = bag.open();
+    let offset = read.clock_offset().unwrap();
+    assert!(!offset.applied && (offset.seconds - 0.08).abs() < 1e-6, "{offset:?}");
+    assert!((offset.uncertainty_s - 0.08).abs() < 1e-6);
+    // Frames so near to motion that they may be of it are not used.
+    let sure = Bag::sample().open();
+    assert!(read.frame_names().len() < sure.frame_names().len());
+    assert!(read.frame_names().iter().all(|name| sure.frame_names().contains(name)));
+}
+
+#[test]
+fn frames_that_come_out_of_order_are_dropped() {
+    let mut bag = Bag::sample();
+    // The tenth comes when the twelfth has been there.
+    bag.on(DEPTH_TOPIC)[10].log_time_ns += 250 * MS;
+    let bag = bag.open();
+    let reason = "its time stamp is not later than the one before";
+    // It is the one behind two others now.
+    assert!(bag.reasons().contains(&(12, reason.to_owned())), "{:?}", bag.reasons());
+}
+
+#[test]
+fn the_longest_times_do_not_overflow() {
+    let far = i64::from(i32::MAX) * 1_000_000_000;
+    for (depth, joints) in [(-far, far), (far, -far), (-far, -far)] {
+        let mut bag = Bag::sample();
+        bag.restamp(DEPTH_TOPIC, |index, _| depth + index as i64);
+        bag.restamp(JOINTS, |index, _| joints + index as i64);
+        // Read or refused, but not broken.
+        let _ = bag.try_open();
+        bag.restamp(JOINTS, |index, _| if index % 200 == 0 { 0 } else { joints + index as i64 });
+        let _ = bag.try_open();
+        bag.messages
+            .iter_mut()
+            .for_each(|m| m.log_time_ns = i64::MAX - (m.log_time_ns - START_NS) % 9);
+        let _ = bag.try_open();
+    }
+    assert!(Bag::sample().without(INFO_TOPIC).try_open().is_err());
+}

@@ -1,0 +1,58 @@
+//! Frames in which the camera saw nothing.
+
+use super::sample::{Bag, CLOUD, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_NS, assert_says};
+use super::writer;
+
+#[test]
+fn images_without_depth_are_dropped() {
+    let empty = [
+        writer::depth(START_NS + 205 * MS, FRAME, SIZE, &[f32::NAN; 12]),
+        writer::depth(START_NS + 205 * MS, FRAME, SIZE, &[0.0; 12]),
+        writer::depth(START_NS + 205 * MS, FRAME, SIZE, &[f32::INFINITY; 12]),
+    ];
+    for data in empty {
+        let mut bag = Bag::sample();
+        bag.on(DEPTH_TOPIC)[2].data = data;
+        let bag = bag.open();
+        assert_eq!(bag.reasons()[0], (2, "no pixel has depth".to_owned()));
+        assert_eq!(bag.frame_names()[2], "3");
+    }
+}
+
+#[test]
+fn clouds_without_points_are_dropped() {
+    let mut bag = Bag::sample().without(DEPTH_TOPIC).without(INFO_TOPIC);
+    for i in 0..5 {
+        let stamp = START_NS + 100 * MS * i + 5 * MS;
+        // The first tells nothing of the frame of the points either.
+        let point = if i == 0 { [f32::NAN; 3] } else { [0.1, 0.1, 1.0] };
+        bag.add("/points", CLOUD, stamp, writer::cloud(stamp, FRAME, SIZE, &[point; 12]));
+    }
+    let bag = bag.open();
+    assert_eq!(bag.reasons(), [(0, "no pixel has depth".to_owned())]);
+    assert_eq!(bag.frame_names(), ["1", "2", "3", "4"]);
+}
+
+#[test]
+fn compressed_images_without_depth_are_an_error() {
+    let mut bag = Bag::sample();
+    // Twelve bytes of configuration, the size, and a run of twelve zeros and none filled.
+    let mut rvl = vec![0; 12];
+    rvl.extend([4, 0, 0, 0, 3, 0, 0, 0]);
+    rvl.extend(0xc1_00_00_00_u32.to_le_bytes());
+    for message in bag.on(DEPTH_TOPIC) {
+        message.message_type = "sensor_msgs/CompressedImage";
+        let format = "16UC1; compressedDepth rvl";
+        message.data = writer::compressed(message.log_time_ns, FRAME, format, &rvl);
+    }
+    assert_says(bag.open().read_frame(0), &[DEPTH_TOPIC, "1700000000.005 s", "no pixel has depth"]);
+}
+
+#[test]
+fn nothing_but_empty_frames_is_an_error() {
+    let mut bag = Bag::sample();
+    for message in bag.on(DEPTH_TOPIC) {
+        message.data = writer::depth(message.log_time_ns, FRAME, SIZE, &[0.0; 12]);
+    }
+    bag.assert_says(&["none of its 60 frames can be used; of the first, no pixel has depth"]);
+}

@@ -1,0 +1,138 @@
+//! Joint states as publishers tell them.
+
+use super::sample::{Bag, INFO_TOPIC, MS, START_NS, position};
+
+fn without_joints() -> Bag {
+    Bag::default().with_depth().with_info(INFO_TOPIC)
+}
+
+#[test]
+fn several_publishers_tell_their_own_joints() {
+    let mut bag = without_joints();
+    for i in 0..600 {
+        let stamp = START_NS + 10 * MS * i;
+        bag.joints(stamp, &[("shoulder", position(10 * MS * i)), ("elbow", 0.5)]);
+        // Its stamps are behind those of the arm, though it tells them later.
+        if i % 5 == 0 {
+            let data = super::writer::joint_state(stamp - 30 * MS, &[("finger", 0.04)]);
+            bag.add("/joint_states", "sensor_msgs/JointState", stamp + MS, data);
+        }
+    }
+    // And once, as some drivers tell what never changes.
+    bag.joints(START_NS + 77 * MS, &[("lift", 1.25)]);
+    let bag = bag.open();
+    let joints = bag.read_joints(0).unwrap();
+    let told = ["shoulder", "elbow", "finger", "lift"].map(|name| joints.get(name).unwrap());
+    assert_eq!(told, [0.0, 0.5, 0.04, 1.25]);
+    assert_eq!(bag.problems("/joint_states"), Vec::<String>::new());
+}
+
+#[test]
+fn names_in_another_order_every_time_are_the_same_joints() {
+    let mut bag = without_joints();
+    let ordered = Bag::sample();
+    for i in 0..600 {
+        let at = position(10 * MS * i);
+        let mut joints = [("shoulder", at), ("elbow", -at)];
+        joints.rotate_left((i % 2) as usize);
+        bag.joints(START_NS + 10 * MS * i, &joints);
+    }
+    let (bag, ordered) = (bag.open(), ordered.open());
+    assert_eq!(bag.frame_names(), ordered.frame_names());
+    for index in 0..bag.frame_names().len() {
+        assert_eq!(bag.read_joints(index).unwrap(), ordered.read_joints(index).unwrap());
+    }
+}
+
+#[test]
+fn a_joint_told_twice_is_taken_from_who_tells_most() {
+    let mut bag = Bag::sample();
+    // A program tells all joints when it starts, and never again.
+    bag.joints(START_NS - MS, &[("finger", 0.1), ("shoulder", 3.0), ("elbow", 3.0)]);
+    let bag = bag.open();
+    let index = bag.frame_names().len() - 1;
+    let joints = bag.read_joints(index).unwrap();
+    let at = position(bag.stamp_ns(index).unwrap() - START_NS);
+    assert!((joints.get("shoulder").unwrap() - at).abs() < 1e-9);
+    assert!((joints.get("elbow").unwrap() + at).abs() < 1e-9);
+    assert_eq!(joints.get("finger"), Some(0.1));
+}
+
+#[test]
+fn stale_joints_are_not_used() {
+    let mut bag = Bag::sample();
+    let gap = |time: i64| (START_NS + 2100 * MS..START_NS + 4000 * MS).contains(&time);
+    bag.messages.retain(|m| m.topic != "/joint_states" || !gap(m.log_time_ns));
+    let bag = bag.open();
+    let stale = |reason: &str| reason.starts_with("the nearest joint state is");
+    let stale: Vec<_> = bag.reasons().into_iter().filter(|(_, reason)| stale(reason)).collect();
+    // From the first that is further than 25 ms from both ends of the gap.
+    assert_eq!(stale.first().unwrap().0, 22);
+    assert_eq!(stale.last().unwrap().0, 39);
+    assert!(stale[5].1.contains(" s away"), "{stale:?}");
+    // Told once, and long ago, is not enough for a whole arm.
+    let mut once = without_joints();
+    once.joints(START_NS, &[("shoulder", 0.5)]);
+    assert_eq!(once.open().frame_names(), ["0"]);
+}
+
+#[test]
+fn a_short_gap_is_crossed_where_nothing_moves() {
+    let mut bag = Bag::sample();
+    let gap = |time: i64| (START_NS + 100 * MS..START_NS + 1400 * MS).contains(&time);
+    bag.messages.retain(|m| m.topic != "/joint_states" || !gap(m.log_time_ns));
+    assert_eq!(bag.open().frame_names(), Bag::sample().open().frame_names());
+}
+
+#[test]
+fn degrees_are_told_as_in_folders() {
+    let mut bag = without_joints();
+    for i in 0..600 {
+        bag.joints(START_NS + 10 * MS * i, &[("shoulder", -90.0), ("elbow", 45.0), ("hand", 0.0)]);
+    }
+    bag.assert_says(&[
+        "/joint_states",
+        "the position of shoulder is -90, which looks like degrees",
+        "Store radians",
+    ]);
+    // Wheels of the arm's base do turn so far.
+    let mut mobile = Bag::sample();
+    for i in 0..600 {
+        mobile.joints(START_NS + 10 * MS * i, &[("wheel", 400.0)]);
+    }
+    assert_eq!(mobile.open().read_joints(0).unwrap().get("wheel"), Some(400.0));
+}
+
+#[test]
+fn positions_that_are_no_numbers_are_told() {
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        let mut bag = Bag::sample();
+        bag.joints(START_NS + 5 * MS, &[("shoulder", 0.0), ("elbow", bad)]);
+        let said = format!("the position of elbow is {bad}");
+        bag.assert_says(&[
+            "/joint_states: position",
+            &said,
+            "message of 1700000000.005 s",
+            "--partial",
+        ]);
+        bag.options.partial = true;
+        let bag = bag.open();
+        assert_eq!(bag.frame_names(), Bag::sample().open().frame_names());
+        assert!(bag.problems("/joint_states")[0].contains("1 messages cannot be read"));
+    }
+}
+
+#[test]
+fn messages_without_positions_tell_nothing() {
+    let mut bag = Bag::sample();
+    for i in 0..50 {
+        // As commands of effort look: names, and no positions.
+        let cdr = super::writer::Cdr::with_header(START_NS + 10 * MS * i + 3 * MS, "");
+        let data = cdr.count(1).text("shoulder").count(0).count(0).count(1).f64s(&[9.0]).done();
+        bag.add("/joint_states", "sensor_msgs/JointState", START_NS + 10 * MS * i + 3 * MS, data);
+    }
+    assert_eq!(bag.open().frame_names(), Bag::sample().open().frame_names());
+    let mut twice = Bag::sample();
+    twice.joints(START_NS, &[("shoulder", 0.0), ("shoulder", 1.0)]);
+    twice.assert_says(&["/joint_states: name: shoulder stands there twice"]);
+}

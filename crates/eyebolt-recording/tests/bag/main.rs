@@ -1,0 +1,14 @@
+//! Recordings in bags, written by the tests message by message and read back.
+
+mod cameras;
+mod clocks;
+mod clouds;
+mod damaged;
+mod empty;
+mod joints;
+mod motion;
+mod pictures;
+mod real;
+mod sample;
+mod topics;
+mod writer;

@@ -1,0 +1,124 @@
+//! Depth, masks and colours of a frame.
+
+use super::sample::{Bag, DEPTH_TOPIC, FRAME, IMAGE, MS, PIXELS, SIZE, START_NS, assert_says};
+use super::writer;
+
+/// Replaces every depth image.
+fn with_depth(encoding: &str, data: &[u8]) -> Bag {
+    let mut bag = Bag::sample();
+    for message in bag.on(DEPTH_TOPIC) {
+        message.data = writer::image(message.log_time_ns, FRAME, encoding, SIZE, data);
+    }
+    bag
+}
+
+fn bytes<const N: usize>(values: &[[u8; N]]) -> Vec<u8> {
+    values.concat()
+}
+
+#[test]
+fn depth_is_in_metres() {
+    let expected: Vec<f32> = (0..12).map(|pixel| 1.0 + 0.01 * pixel as f32).collect();
+    assert_eq!(Bag::sample().open().depth_m(0), expected);
+    let mut millimetres = [1250_u16; PIXELS];
+    millimetres[3] = 0;
+    millimetres[4] = u16::MAX;
+    let depth = with_depth("16UC1", &bytes(&millimetres.map(u16::to_le_bytes))).open().depth_m(0);
+    assert_eq!((depth[0], depth[3], depth[4]), (1.25, 0.0, 0.0));
+}
+
+#[test]
+fn units_must_be_plausible() {
+    let float_mm = bytes(&[1250.0_f32; PIXELS].map(f32::to_le_bytes));
+    let read = with_depth("32FC1", &float_mm).open();
+    assert_says(read.read_frame(0), &[DEPTH_TOPIC, "looks like millimetres", "REP 118"]);
+    let integer_m = bytes(&[2_u16; PIXELS].map(u16::to_le_bytes));
+    let read = with_depth("16UC1", &integer_m).open();
+    assert_says(read.read_frame(0), &[DEPTH_TOPIC, "looks like metres", "REP 118"]);
+}
+
+#[test]
+fn compressed_depth_is_read() {
+    let mut bag = Bag::sample();
+    let mut png = vec![0; 12];
+    let mut encoder = png::Encoder::new(&mut png, SIZE.0, SIZE.1);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let data = bytes(&[1250_u16; PIXELS].map(u16::to_be_bytes));
+    encoder.write_header().unwrap().write_image_data(&data).unwrap();
+    for message in bag.on(DEPTH_TOPIC) {
+        message.topic = format!("{DEPTH_TOPIC}/compressedDepth");
+        message.message_type = "sensor_msgs/CompressedImage";
+        let format = "16UC1; compressedDepth png";
+        message.data = writer::compressed(message.log_time_ns, FRAME, format, &png);
+    }
+    let read = bag.open();
+    assert_eq!(read.depth_m(0), [1.25; PIXELS]);
+    assert_eq!(read.frame_names(), Bag::sample().open().frame_names());
+    // Its intrinsics are beside the picture that was compressed.
+    assert_eq!(read.role("intrinsics").as_deref(), Some("/camera/depth/camera_info"));
+}
+
+fn masks(encoding: &str, size: (u32, u32), data: &[u8]) -> Bag {
+    let mut bag = Bag::sample();
+    for i in 0..60 {
+        let stamp = START_NS + 100 * MS * i + 15 * MS;
+        bag.add("/arm_mask", IMAGE, stamp, writer::image(stamp, FRAME, encoding, size, data));
+    }
+    bag
+}
+
+#[test]
+fn masks_mark_the_arm() {
+    let mut set = [0; PIXELS];
+    set[5] = 1;
+    let bag = masks("mono8", SIZE, &set).open();
+    assert!(bag.has_masks());
+    let mask = bag.read_frame(0).unwrap().mask.unwrap();
+    assert_eq!((mask.count(), mask.width(), mask.height()), (1, 4, 3));
+    assert!(!Bag::sample().open().has_masks());
+}
+
+#[test]
+fn masks_must_fit() {
+    assert_says(
+        masks("mono8", SIZE, &[0; PIXELS]).open().read_frame(0),
+        &["/arm_mask", "no pixel of the mask is set"],
+    );
+    let mut other = masks("mono8", (2, 2), &[1; 4]);
+    // Of another size, they are not taken by themselves.
+    assert!(!other.open().has_masks());
+    other.options.mask_topic = Some("/arm_mask".to_owned());
+    let parts = ["/arm_mask at 1700000000.015 s", "the mask is 2 x 2, the frame 4 x 3"];
+    assert_says(other.open().read_frame(0), &parts);
+    let mut colored = masks("rgb8", SIZE, &[1; 3 * PIXELS]);
+    colored.options.mask_topic = Some("/arm_mask".to_owned());
+    assert_says(colored.open().read_frame(0), &["\"rgb8\" is no mask"]);
+}
+
+fn colors(stamps_ms: &[i64], size: (u32, u32)) -> Bag {
+    let mut bag = Bag::sample();
+    for (i, ms) in stamps_ms.iter().enumerate() {
+        let stamp = START_NS + ms * MS;
+        let data = vec![i as u8; 3 * (size.0 * size.1) as usize];
+        bag.add("/color", IMAGE, stamp, writer::image(stamp, FRAME, "bgr8", size, &data));
+    }
+    bag
+}
+
+#[test]
+fn the_colour_picture_is_the_nearest_in_time() {
+    // Frames are at 5, 105, 205... ms.
+    let bag = colors(&[20, 90, 130, 260], SIZE).open();
+    let value = |index: usize| bag.read_color(index).unwrap().map(|color| color.rgb[0][0]);
+    assert_eq!([value(0), value(1), value(2), value(3)], [Some(0), Some(1), None, Some(3)]);
+    assert!(Bag::sample().open().read_color(0).unwrap().is_none());
+}
+
+#[test]
+fn colours_must_be_of_the_camera() {
+    let mut bag = colors(&[5], (8, 6));
+    assert!(bag.open().read_color(0).unwrap().is_none());
+    bag.options.color_topic = Some("/color".to_owned());
+    assert_says(bag.open().read_color(0), &["/color", "the picture is 8 x 6, the camera 4 x 3"]);
+}
