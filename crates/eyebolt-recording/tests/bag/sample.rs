@@ -1,7 +1,9 @@
 //! A small recording in a bag, to be changed by tests.
 
 use super::writer::{self, Message, write_mcap};
-use eyebolt_recording::{BagOptions, BagRecording, Range, RecordingError};
+use eyebolt_recording::{
+    BagOptions, BagRecording, Range, RecordingError, StaticTransform, static_transforms,
+};
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -29,10 +31,19 @@ pub struct Bag {
     pub options: BagOptions,
 }
 
+/// Name of its file.
+const NAME: &str = "bag.mcap";
+
 /// A bag that was opened, and the folder that it lies in.
 pub struct Opened {
     pub recording: BagRecording,
-    _folder: TempDir,
+    folder: TempDir,
+}
+
+impl Opened {
+    pub fn static_transforms(&self) -> Vec<StaticTransform> {
+        static_transforms(&self.folder.path().join(NAME), &BagOptions::default()).unwrap()
+    }
 }
 
 impl std::ops::Deref for Opened {
@@ -127,7 +138,7 @@ impl Bag {
     /// Writes the bag, in order of time.
     pub fn write(&self) -> (TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("bag.mcap");
+        let path = folder.path().join(NAME);
         let mut messages = self.messages.clone();
         messages.sort_by_key(|message| message.log_time_ns);
         write_mcap(&path, &messages);
@@ -137,7 +148,7 @@ impl Bag {
     pub fn try_open(&self) -> Result<Opened, RecordingError> {
         let (folder, path) = self.write();
         let recording = BagRecording::open(&path, &self.options)?;
-        Ok(Opened { recording, _folder: folder })
+        Ok(Opened { recording, folder })
     }
 
     #[track_caller]

@@ -30,8 +30,9 @@ fn the_only_ones_are_found_by_type() {
     assert_eq!(bag.role("robot").as_deref(), Some("/robot_description"));
     assert_eq!(bag.robot().description.as_deref(), Some("<robot/>"));
     assert_eq!(bag.camera_frame_id(), Some(FRAME));
-    assert_eq!(bag.static_transforms()[0].child, "camera");
-    assert_eq!(bag.static_transforms()[0].translation_m, [1.0, 2.0, 3.0]);
+    let transforms = bag.static_transforms();
+    assert_eq!(transforms[0].child, "camera");
+    assert_eq!(transforms[0].translation_m, [1.0, 2.0, 3.0]);
     let topics = bag.topics();
     assert!(topics.is_sorted_by_key(|topic| topic.name.clone()));
     assert!(topics.iter().all(|topic| topic.problems.is_empty()), "{topics:?}");
