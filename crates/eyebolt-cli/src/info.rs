@@ -4,8 +4,8 @@ use crate::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
 use anyhow::Result;
-use eyebolt::info::{Info, Topic, topic};
-use eyebolt_recording::list_topics;
+use eyebolt::info::Info;
+use eyebolt_recording::{TopicSummary, list_topics};
 use std::fmt::{self, Write};
 
 /// Options of `eyebolt info`.
@@ -31,7 +31,6 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
                 && !arguments.json
                 && !topics.is_empty()
             {
-                let topics: Vec<_> = topics.into_iter().map(topic).collect();
                 output::say(&table(&topics));
             }
             return Err(error);
@@ -112,7 +111,7 @@ fn robot(text: &mut String, info: &Info) -> fmt::Result {
     Ok(())
 }
 
-fn table(topics: &[Topic]) -> String {
+fn table(topics: &[TopicSummary]) -> String {
     let mut text = String::new();
     let width = topics.iter().map(|topic| topic.name.len()).max().unwrap_or(0);
     for topic in topics {

@@ -21,7 +21,7 @@ pub struct Info {
     /// `folder`, `MCAP`, `rosbag2 (SQLite)` or `ROS 1 bag`.
     pub kind: &'static str,
     /// The topics of a bag.
-    pub topics: Vec<Topic>,
+    pub topics: Vec<TopicSummary>,
     /// The depth.
     pub depth: Depth,
     /// Frames, and which of them take part.
@@ -38,27 +38,6 @@ pub struct Info {
     pub damage: Vec<String>,
     /// What to do, most important first; empty if all is well.
     pub advice: Vec<String>,
-}
-
-/// A topic.
-#[derive(Clone, Debug, Serialize)]
-pub struct Topic {
-    /// Name.
-    pub name: String,
-    /// Type of its messages.
-    pub message_type: String,
-    /// What it is to the recording, if anything.
-    pub role: Option<&'static str>,
-    /// Number of messages.
-    pub count: u64,
-    /// Bytes of all messages.
-    pub bytes: u64,
-    /// Messages a second.
-    pub rate_hz: Option<f64>,
-    /// Frame of its messages.
-    pub frame_id: Option<String>,
-    /// What is wrong with it.
-    pub problems: Vec<String>,
 }
 
 /// Statistics over some frames, evenly chosen.
@@ -178,12 +157,7 @@ impl Info {
         let mut info = Self {
             schema: SCHEMA,
             kind: bag.map_or("folder", |bag| bag.kind().name()),
-            topics: bag
-                .map(|bag| bag.topics())
-                .unwrap_or_default()
-                .into_iter()
-                .map(topic)
-                .collect(),
+            topics: bag.map(|bag| bag.topics()).unwrap_or_default(),
             depth: depth_statistics(recording)?,
             frames: frames(recording),
             clock: bag.and_then(|bag| bag.clock_offset()).map(|offset| Clock {
@@ -213,13 +187,6 @@ impl Info {
         text.push('\n');
         text
     }
-}
-
-/// A topic as it is told.
-pub fn topic(summary: TopicSummary) -> Topic {
-    let TopicSummary { name, message_type, role, count, bytes, rate_hz, frame_id, problems } =
-        summary;
-    Topic { name, message_type, role, count, bytes, rate_hz, frame_id, problems }
 }
 
 fn all_joints(recording: &Recording) -> Result<Vec<String>, RecordingError> {

@@ -6,10 +6,11 @@ use super::{BagOptions, BagRecording};
 use crate::bag::Bag;
 use crate::error::RecordingError;
 use crate::message::StaticTransform;
+use serde::Serialize;
 use std::path::Path;
 
 /// A topic of a bag, for people.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TopicSummary {
     /// Name.
     pub name: String,

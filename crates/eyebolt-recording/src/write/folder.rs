@@ -8,6 +8,7 @@ use crate::frame::{Frame, Range};
 use crate::recording::Recording;
 use eyebolt_geometry::{Distortion, PinholeCamera};
 use eyebolt_robot::JointPositions;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
@@ -218,11 +219,14 @@ fn manifest(recording: &Recording, robot: &WriteRobot, found: Found, frames: usi
     text
 }
 
-/// The files of a folder are named after its frames, so these must be names of files.
+/// The files of a folder are named after its frames, so these must be names of files, each once.
 pub(crate) fn check_names(path: &Path, names: &[String]) -> Result<(), RecordingError> {
-    let bad = names.iter().find(|name| name.contains(['/', '\\', '\0']) || name.is_empty());
-    bad.map_or(Ok(()), |name| {
-        let problem = format!("{name:?} cannot be part of the name of a file");
+    let mut known = BTreeSet::new();
+    let bad = |name: &&String| {
+        name.is_empty() || name.contains(['/', '\\', '\0']) || !known.insert(name.as_str())
+    };
+    names.iter().find(bad).map_or(Ok(()), |name| {
+        let problem = format!("{name:?} cannot be part of the name of a file, or is there twice");
         Err(RecordingError::invalid(path, "metadata: frame_names", problem, "Write it again"))
     })
 }
