@@ -20,10 +20,12 @@ impl Folder {
     /// # Errors
     ///
     /// No such frame; a file that cannot be read, is damaged, or does not fit the camera, the
-    /// description or the range image; values that cannot be in the unit claimed; an empty mask.
+    /// description or the range image; values that cannot be in the unit claimed; a frame that saw
+    /// nothing; an empty mask.
     pub fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
         let name = self.name(index)?;
         let range = self.range(name)?;
+        self.check_seen(name, &range)?;
         let mask = self.mask(name, &range)?;
         let joints = self.read_joints(index)?;
         Ok(Frame { name: name.to_owned(), range, mask, joints })
@@ -84,6 +86,19 @@ impl Folder {
             )),
             (RangeKind::Cloud(frame), camera) => self.cloud(&path, frame, camera).map(Range::Cloud),
         }
+    }
+
+    /// A frame without depth tells nothing, and is hardly what was meant to be recorded.
+    fn check_seen(&self, name: &str, range: &Range) -> Result<(), RecordingError> {
+        let (field, problem) = match range {
+            Range::Depth(image) if image.depth_m().iter().all(|z| *z == 0.0) => {
+                ("depth", "no pixel has depth")
+            }
+            Range::Cloud(cloud) if cloud.valid().next().is_none() => ("cloud", "no point is valid"),
+            _ => return Ok(()),
+        };
+        let remedy = "Leave the frame out: move its files away";
+        Err(RecordingError::invalid(&self.manifest.range.path(name), field, problem, remedy))
     }
 
     fn cloud(
