@@ -1,6 +1,7 @@
 //! The program from outside: exit status, files and what it says.
 
 mod answer;
+mod desk;
 mod export;
 mod files;
 mod good;
