@@ -33,6 +33,6 @@ fn a_file_that_unpacks_to_more_than_any_recording() {
     fs::write(&path, frame().repeat(65)).unwrap();
     let mut info = command("", &["info", text(&path)]);
     let ended = end(start(info.env("TMPDIR", &scratch)));
-    ended.assert_error(&["bag.mcap.zstd: zstd", "more than 4 GiB", "no recording"]);
+    ended.assert_error(&["bag.mcap.zstd: zstd", "more than 4294967296 bytes", "no recording"]);
     assert_eq!(fs::read_dir(&scratch).unwrap().count(), 0, "the copy is removed");
 }
