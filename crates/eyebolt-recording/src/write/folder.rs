@@ -222,11 +222,13 @@ fn manifest(recording: &Recording, robot: &WriteRobot, found: Found, frames: usi
 /// The files of a folder are named after its frames, so these must be names of files, each once.
 pub(crate) fn check_names(path: &Path, names: &[String]) -> Result<(), RecordingError> {
     let mut known = BTreeSet::new();
-    let bad = |name: &&String| {
-        name.is_empty() || name.contains(['/', '\\', '\0']) || !known.insert(name.as_str())
-    };
-    names.iter().find(bad).map_or(Ok(()), |name| {
+    for name in names {
+        if !name.is_empty() && !name.contains(['/', '\\', '\0']) && known.insert(name.as_str()) {
+            continue;
+        }
         let problem = format!("{name:?} cannot be part of the name of a file, or is there twice");
-        Err(RecordingError::invalid(path, "metadata: frame_names", problem, "Write it again"))
-    })
+        let remedy = "Write the file again";
+        return Err(RecordingError::invalid(path, "metadata: frame_names", problem, remedy));
+    }
+    Ok(())
 }
