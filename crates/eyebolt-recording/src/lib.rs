@@ -46,6 +46,9 @@ mod error;
 mod file;
 mod folder;
 mod frame;
+#[cfg(fuzzing)]
+#[doc(hidden)]
+pub mod fuzzing;
 mod joints;
 mod manifest;
 mod mask;

@@ -1,0 +1,147 @@
+//! The readers of bytes from outside one by one, for the targets in `fuzz/`.
+//!
+//! Whatever they are given, they return: errors are as good as results. Where there is a law, it is
+//! asserted.
+
+use crate::bag::{Bag, Encoding, Locator};
+use crate::camera_info::CameraInfo;
+use crate::cloud::read_cloud;
+use crate::color::read_color;
+use crate::depth::read_depth;
+use crate::joints::{Joints, read_joints};
+use crate::manifest::{CloudFrame, Manifest, Unit};
+use crate::mask::read_mask;
+use crate::message::{
+    CameraInfoMessage, CloudMessage, CompressedImageMessage, ImageMessage, JointStateMessage,
+    WireProblem, WireReader, text, transforms,
+};
+use crate::npy::{Dtype, Npy};
+use crate::png_image::PngImage;
+use std::path::Path;
+
+/// An NPY file as depth, as points and as positions of joints.
+pub fn npy(path: &Path) {
+    let accepted = [Dtype::Float32, Dtype::Float64, Dtype::Uint16];
+    let Ok(npy) = Npy::read(path, "array", &accepted) else { return };
+    let count: usize = npy.shape().iter().product();
+    assert_eq!(npy.values::<f32>().len(), count);
+    if let [height, width] = *npy.shape()
+        && let (Ok(width), Ok(height)) = (width.try_into(), height.try_into())
+    {
+        let _ = read_depth(path, "npy", Unit::Metres, (width, height, "itself"));
+        let _ = read_depth(path, "npy", Unit::Millimetres, (width, height, "itself"));
+    }
+    cloud(path, "npy");
+    let names: Vec<_> = (0..count.min(8)).map(|index| format!("joint_{index}")).collect();
+    let _ = read_joints(path, "npy", Some(&names));
+}
+
+/// A cloud in a file whose name would end in `extension`: `npy`, `pcd` or `ply`.
+pub fn cloud(path: &Path, extension: &str) {
+    let _ = read_cloud(path, extension, Unit::Metres, CloudFrame::Optical);
+    let _ = read_cloud(path, extension, Unit::Millimetres, CloudFrame::Body);
+}
+
+/// A PNG file as depth, as a mask and as a picture.
+pub fn png(path: &Path) {
+    let Ok(image) = PngImage::read(path, "picture", None, false) else { return };
+    let size = (image.width, image.height, "itself");
+    let _ = read_depth(path, "png", Unit::Millimetres, size);
+    let _ = read_mask(path, size);
+    let _ = read_color(path, Some(size));
+}
+
+/// Text as the YAML of a camera.
+pub fn camera_info(text: &str) {
+    let _ = CameraInfo::parse(Path::new("camera_info.yaml"), text);
+}
+
+/// A file whose name ends in `extension`, `csv` or `json`, as the joints of one frame and as those
+/// of several.
+pub fn joints(path: &Path, extension: &str) {
+    let name = path.file_name().unwrap_or_default().display();
+    let text = format!(
+        "camera.info = 'camera_info.yaml'\n\
+         frames = {{ depth = 'depth_{{}}.npy', depth_unit = 'm', joints = '{name}' }}"
+    );
+    let manifest = Manifest::parse(&path.with_file_name("recording.toml"), &text);
+    let mut manifest = manifest.expect("the description is a right one");
+    let frames = ["0", "1", "start"].map(str::to_owned);
+    let names = ["joint_1", "joint_2"].map(str::to_owned).to_vec();
+    for joint_names in [None, Some(names)] {
+        let _ = read_joints(path, extension, joint_names.as_deref());
+        manifest.joint_names = joint_names;
+        let _ = Joints::open(&manifest, &frames);
+    }
+}
+
+/// Most messages of a bag that are read again.
+const MOST_READ: usize = 64;
+
+/// A file as a bag: every message that a scan tells of is found again where it says.
+pub fn bag(path: &Path, scratch: &Path) {
+    let Ok(bag) = Bag::open(path, scratch) else { return };
+    let mut told: Vec<(Locator, Vec<u8>)> = Vec::new();
+    let scanned = bag.scan(
+        &mut |locator, message| {
+            if told.len() < MOST_READ {
+                told.push((locator, message.data.to_vec()));
+            }
+            Ok(())
+        },
+        // Damaged parts are passed over.
+        &mut |_| Ok(()),
+    );
+    let _ = scanned;
+    for (locator, data) in told {
+        let read = bag.read(locator);
+        // The tables of a hostile database need not have one row for each number.
+        if bag.kind() != crate::BagKind::Sqlite {
+            assert_eq!(read.expect("it was there in the scan"), data);
+        }
+    }
+}
+
+/// Bytes as a message of every type, as ROS 1 and as ROS 2 write it.
+pub fn messages(bytes: &[u8]) {
+    for encoding in [Encoding::Ros1, Encoding::Cdr] {
+        let reader = || WireReader::new(&encoding, bytes);
+        let _ = reader().and_then(|mut reader| text(&mut reader).map(str::len));
+        let _ = reader().and_then(|mut reader| transforms(&mut reader));
+        same_again(bytes, &encoding, |reader| Ok(CameraInfoMessage::read(reader)?.write()));
+        same_again(bytes, &encoding, |reader| Ok(JointStateMessage::read(reader)?.write()));
+        same_again(bytes, &encoding, |reader| {
+            let image = ImageMessage::read(reader)?;
+            let _ = (image.depth_m(), image.rgb(), image.mask());
+            Ok(image.write())
+        });
+        same_again(bytes, &encoding, |reader| {
+            let cloud = CloudMessage::read(reader)?;
+            let _ = cloud.points();
+            Ok(cloud.write())
+        });
+        same_again(bytes, &encoding, |reader| {
+            let image = CompressedImageMessage::read(reader)?;
+            let _ = image.depth();
+            Ok(image.write())
+        });
+        if let Ok(mut reader) = reader()
+            && let Ok(info) = CameraInfoMessage::read(&mut reader)
+        {
+            let _ = CameraInfo::from_message(Path::new("bag"), &info, false);
+            let _ = CameraInfo::from_message(Path::new("bag"), &info, true);
+        }
+    }
+}
+
+/// A message that was read and written is written the same when it is read again.
+fn same_again(
+    bytes: &[u8],
+    encoding: &Encoding,
+    rewrite: impl Fn(&mut WireReader<'_>) -> Result<Vec<u8>, WireProblem>,
+) {
+    let rewritten = WireReader::new(encoding, bytes).and_then(|mut reader| rewrite(&mut reader));
+    let Ok(once) = rewritten else { return };
+    let again = WireReader::new(&Encoding::Cdr, &once).and_then(|mut reader| rewrite(&mut reader));
+    assert_eq!(again.as_ref(), Ok(&once));
+}

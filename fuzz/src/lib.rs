@@ -1,0 +1,48 @@
+//! What the fuzz targets share: files for the readers that open them by themselves.
+
+use eyebolt_recording::{BagOptions, Recording, WriteRobot, write_mcap};
+use std::fs;
+use std::io::Cursor;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// A folder of this process alone. `fuzz/run` sets `TMPDIR` to one in memory and removes it.
+pub static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+    let folder = std::env::temp_dir().join(format!("eyebolt-fuzz-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("the temporary folder can be written to");
+    folder
+});
+
+/// The file `name` with these bytes, overwritten by the next call.
+pub fn file(name: &str, bytes: &[u8]) -> PathBuf {
+    let path = FOLDER.join(name);
+    fs::write(&path, bytes).expect("the temporary folder has room");
+    path
+}
+
+/// Frames of a recording that are read.
+const MOST_FRAMES: usize = 3;
+
+/// Reads the recording at `path` and writes it again, if it is one.
+pub fn recording(path: &Path) {
+    for partial in [false, true] {
+        let options = BagOptions { partial, scratch: FOLDER.clone(), ..BagOptions::default() };
+        let Ok(recording) = Recording::open(path, &options) else { continue };
+        for index in 0..recording.frame_names().len().min(MOST_FRAMES) {
+            let _ = (recording.read_frame(index), recording.read_color(index));
+        }
+        if let Some(bag) = recording.bag() {
+            let _ = (bag.topics(), bag.dropped_frames(), bag.clock_offset(), bag.damage());
+        }
+        let mut written = Cursor::new(Vec::new());
+        let robot = WriteRobot::default();
+        let _ = write_mcap(&recording, &robot, &mut written, &mut |_, _| ControlFlow::Continue(()));
+    }
+}
+
+/// Reads the bag at `path`, message by message and as a recording.
+pub fn bag(path: &Path) {
+    eyebolt_recording::fuzzing::bag(path, &FOLDER);
+    recording(path);
+}
