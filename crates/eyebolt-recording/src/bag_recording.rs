@@ -3,21 +3,23 @@
 //! One pass over the bag finds the topics, the frames of depth and the path of the joints; frames
 //! are read when asked for. Memory grows by some bytes a frame, not by its pixels.
 
+mod check;
 mod choose;
 mod clouds;
 mod frames;
 mod pair;
 mod scan;
 mod stamps;
+mod summary;
 mod track;
 
 pub use pair::{DropReason, DroppedFrame};
 pub use stamps::ClockOffset;
+pub use summary::TopicSummary;
 
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
-use crate::joints::{self, looks_like_degrees};
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, StaticTransform, WireReader};
 use choose::Chosen;
@@ -67,27 +69,6 @@ pub struct BagRecording {
     names: Vec<String>,
     clock_offset: Option<ClockOffset>,
     cloud_frame: Option<CloudFrame>,
-}
-
-/// A topic of a bag, for people.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TopicSummary {
-    /// Name.
-    pub name: String,
-    /// Type of its messages, as in `sensor_msgs/Image`.
-    pub message_type: String,
-    /// What the messages are to the recording, where that is known: `depth`, `joints`...
-    pub role: Option<&'static str>,
-    /// Number of messages.
-    pub count: u64,
-    /// Bytes of all messages.
-    pub bytes: u64,
-    /// Messages a second, of topics with more than one.
-    pub rate_hz: Option<f64>,
-    /// The frame that its messages are in.
-    pub frame_id: Option<String>,
-    /// What is wrong with it, in words.
-    pub problems: Vec<String>,
 }
 
 impl BagRecording {
@@ -232,45 +213,6 @@ impl BagRecording {
         RecordingError::invalid(&self.path, field, problem, remedy)
     }
 
-    /// What is wrong with a topic that the recording needs is wrong with the recording.
-    fn check_topics(&self, partial: bool) -> Result<(), RecordingError> {
-        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
-        let needed = [camera_info, description, color, mask];
-        for number in [range, joints].into_iter().chain(needed.into_iter().flatten()) {
-            let topic = self.topic(number);
-            if let Some((log_time_ns, problem)) = topic.first_problem.as_ref().filter(|_| !partial)
-            {
-                let field = format!("{}: {}", topic.name, problem.field);
-                let text = format!("{} (message of {})", problem.problem, seconds(*log_time_ns));
-                let remedy = "Record it again, or give --partial to go without such messages";
-                return Err(self.invalid(&field, text, remedy));
-            }
-            let (backward, first) = topic.backward();
-            if let Some((latest, next)) = first
-                && backward > (topic.count / MOST_BACKWARD).max(1)
-            {
-                let problem = format!(
-                    "{backward} of {} stamps run backward, first from {} to {}",
-                    topic.count,
-                    seconds(latest),
-                    seconds(next)
-                );
-                let remedy =
-                    "Two programs publish there, or the clock was set back: record it again";
-                return Err(self.invalid(&topic.name, problem, remedy));
-            }
-        }
-        let topic = camera_info.map(|number| self.topic(number));
-        if let Some(topic) = topic
-            && let Content::CameraInfo { changed_ns: Some(changed), .. } = &topic.content
-        {
-            let problem = format!("the intrinsics change at {}", seconds(*changed));
-            let remedy = "Record with one setting of the camera, or give --camera-info with a file";
-            return Err(self.invalid(&topic.name, problem, remedy));
-        }
-        Ok(())
-    }
-
     fn read_camera(&self, options: &BagOptions) -> Result<Option<CameraInfo>, RecordingError> {
         if let Some(path) = &options.camera_info {
             return CameraInfo::read(path).map(Some);
@@ -324,50 +266,6 @@ impl BagRecording {
         Ok(())
     }
 
-    /// Joints in degrees would put the arm anywhere.
-    fn check_joints(&self) -> Result<(), RecordingError> {
-        let farthest = |joint: usize| {
-            let positions = self.paired.kept.iter().filter_map(|kept| kept.positions.get(joint));
-            positions.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
-        };
-        let joints = self.paired.names.iter().enumerate();
-        let joints = joints.map(|(joint, name)| (name, farthest(joint)));
-        let suspects: Vec<_> = joints.filter(|(_, far)| looks_like_degrees(*far)).collect();
-        // Wheels, which a topic may tell of too, do turn so far; they are the lesser part.
-        match suspects.first() {
-            Some((name, position)) if 2 * suspects.len() >= self.paired.names.len() => {
-                joints::check(&self.path, &self.topic(self.chosen.joints).name, name, *position)
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn summary(&self, number: usize) -> Option<TopicSummary> {
-        let topic = self.scan.topics.get(number)?;
-        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
-        let roles = [
-            (Some(range), "depth"),
-            (camera_info, "intrinsics"),
-            (Some(joints), "joints"),
-            (description, "robot"),
-            (color, "color"),
-            (mask, "mask"),
-        ];
-        let role = roles.into_iter().find(|(role, _)| *role == Some(number)).map(|(_, name)| name);
-        let span_s = topic.last_ns.saturating_sub(topic.first_ns) as f64 * 1e-9;
-        let rate_hz = (topic.count - 1) as f64 / span_s;
-        Some(TopicSummary {
-            name: topic.name.clone(),
-            message_type: topic.message_type.clone(),
-            role,
-            count: topic.count,
-            bytes: topic.bytes,
-            rate_hz: Some(rate_hz).filter(|rate| *rate > 0.0 && rate.is_finite()),
-            frame_id: topic.frame_id.clone(),
-            problems: problems(topic),
-        })
-    }
-
     fn unreadable(
         &self,
         topic: &TopicScan,
@@ -376,34 +274,6 @@ impl BagRecording {
         let field = format!("{}: {}", topic.name, problem.field);
         self.invalid(&field, problem.problem.clone(), "Record it again")
     }
-}
-
-/// One stamp of so many may run backward: networks deliver some messages out of order.
-const MOST_BACKWARD: u64 = 100;
-
-fn seconds(ns: i64) -> String {
-    format!("{:.3} s", ns as f64 * 1e-9)
-}
-
-fn problems(topic: &TopicScan) -> Vec<String> {
-    let mut problems = Vec::new();
-    if let Some((_, problem)) = &topic.first_problem {
-        problems.push(format!(
-            "{} messages cannot be read, the first because of {}: {}",
-            topic.unreadable, problem.field, problem.problem
-        ));
-    }
-    if topic.stamps.unset > 0 {
-        problems.push(format!(
-            "{} messages have no time stamp; the time of recording stands in",
-            topic.stamps.unset
-        ));
-    }
-    let (backward, _) = topic.backward();
-    if backward > 0 {
-        problems.push(format!("{backward} time stamps run backward"));
-    }
-    problems
 }
 
 /// What the bag says of the robot: its description, and the links where eyebolt wrote the bag.

@@ -14,6 +14,7 @@ use std::path::Path;
 /// A recording of depth and joint positions. Frames are read when asked for, from as many threads
 /// as wanted.
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one of it, not a list of them")]
 pub enum Recording {
     /// A folder of files with a `recording.toml`.
     Folder(Folder),
