@@ -36,6 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let kind = Kind::of(output)?;
     check(arguments, kind)?;
     let recording = arguments.recording.open()?;
+    check_sources(output, &recording)?;
     let robot = arguments.robot.to_write(&recording)?;
     let bar = Bar::new()?;
     match kind {
@@ -78,22 +79,49 @@ impl Kind {
 fn check(arguments: &Arguments, kind: Kind) -> Result<()> {
     let output = &arguments.output;
     output::refuse_existing(output, arguments.force)?;
-    let same =
-        || Some(output.canonicalize().ok()? == arguments.recording.recording.canonicalize().ok()?);
-    if same() == Some(true) {
-        bail!("{}: this is the recording itself. Name another place", output.display());
-    }
     match kind {
         Kind::Mcap if output.is_dir() => {
             bail!("{}: this is a folder. Name a file in it", output.display())
         }
-        // With --force, only what looks like a recording is replaced: never somebody's home.
-        Kind::Folder if output.exists() && !output.join("recording.toml").is_file() => bail!(
-            "{}: there is something that is no recording. Name another place",
-            output.display()
-        ),
+        Kind::Folder if output.exists() => check_replaceable(output),
         _ => Ok(()),
     }
+}
+
+/// With --force, a folder is replaced if there is nothing in it but a recording of ours.
+fn check_replaceable(folder: &Path) -> Result<()> {
+    let known = |name: &str| {
+        let frame = ["depth_", "cloud_", "mask_", "color_"].iter().any(|p| name.starts_with(p));
+        matches!(name, "recording.toml" | "camera_info.yaml" | "joints.csv" | "robot.urdf")
+            || (frame && (name.ends_with(".png") || name.ends_with(".npy")))
+    };
+    let failed = || format!("{}: cannot be listed. Name another place", folder.display());
+    for entry in std::fs::read_dir(folder).with_context(failed)? {
+        let entry = entry.with_context(failed)?;
+        let ours = entry.file_name().to_str().is_some_and(known) && entry.path().is_file();
+        if !ours {
+            bail!(
+                "{}: {} is not of a recording that eyebolt wrote. Name another place",
+                folder.display(),
+                entry.file_name().display()
+            );
+        }
+    }
+    Ok(())
+}
+
+/// What is read must not be written over, nor what it lies in.
+fn check_sources(output: &Path, recording: &Recording) -> Result<()> {
+    let Ok(real) = output.canonicalize() else { return Ok(()) };
+    for source in recording.sources() {
+        if source.canonicalize().is_ok_and(|source| source.starts_with(&real)) {
+            bail!(
+                "{}: this is the recording itself, or has it in it. Name another place",
+                output.display()
+            );
+        }
+    }
+    Ok(())
 }
 
 /// The error, with the name that the user gave instead of a temporary one.

@@ -4,7 +4,7 @@ use crate::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
 use anyhow::Result;
-use eyebolt::info::Info;
+use eyebolt::info::{Info, NO_ROBOT};
 use eyebolt_recording::{TopicSummary, list_topics};
 use std::fmt::{self, Write};
 
@@ -37,8 +37,16 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         }
     };
     // A recording without a robot can be looked at all the same.
-    let arm = arguments.robot.arm_if_known(&recording)?;
-    let info = Info::new(&recording, arm.as_ref())?;
+    let (arm, problem) = match arguments.robot.arm_if_known(&recording) {
+        Ok(arm) => (arm, None),
+        Err(error) => (None, Some(format!("the robot description cannot be used: {error:#}"))),
+    };
+    let mut info = Info::new(&recording, arm.as_ref())?;
+    if let Some(problem) = problem {
+        // Instead of the advice to give one.
+        info.advice.retain(|line| !line.starts_with(NO_ROBOT));
+        info.advice.insert(0, problem);
+    }
     let text = if arguments.json { info.to_json() } else { text(&info) };
     output::say(text.trim_end());
     Ok(Ending::Done)
@@ -95,9 +103,17 @@ fn overview(text: &mut String, info: &Info) -> fmt::Result {
     line("configurations", format!("{}{frames}", configurations.len()))?;
     line("joints", info.joints.join(" "))?;
     if let Some(clock) = info.clock {
-        let seen = if clock.seen_in_motion { ", by the motion in both" } else { "" };
-        let applied = if clock.applied { ", made up for" } else { "" };
-        line("clocks", format!("{:.3} s from depth to joints{seen}{applied}", clock.offset_s))?;
+        let how = if clock.seen_in_motion { "motion in both" } else { "times of recording" };
+        line(
+            "clocks",
+            match clock.applied {
+                true => format!(
+                    "stamps of depth shifted by {:+.3} s (to {:.3} s), by the {how}",
+                    clock.offset_s, clock.uncertainty_s
+                ),
+                false => format!("one; depth arrives {:.3} s later than joints", clock.offset_s),
+            },
+        )?;
     }
     Ok(())
 }

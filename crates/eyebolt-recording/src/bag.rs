@@ -74,6 +74,13 @@ pub(crate) enum Place {
     Row(i64),
 }
 
+#[cfg(test)]
+impl Default for Place {
+    fn default() -> Self {
+        Self::Row(0)
+    }
+}
+
 /// A file of messages.
 ///
 /// Reading is by streaming: memory holds one chunk (or message) at a time, however long the file.

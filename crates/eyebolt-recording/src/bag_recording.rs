@@ -3,6 +3,7 @@
 //! One pass over the bag finds the topics, the frames of depth and the path of the joints; frames
 //! are read when asked for. Memory grows by some bytes a frame, not by its pixels.
 
+mod check;
 mod choose;
 mod clouds;
 mod copying;
@@ -45,6 +46,9 @@ pub struct BagRecording {
     robot: RobotSection,
     paired: Paired,
     names: Vec<String>,
+    /// Masks and colour pictures that can be read, by their stamps.
+    masks: Vec<FrameEntry>,
+    colors: Vec<FrameEntry>,
     clock_offset: Option<ClockOffset>,
     cloud_frame: Option<CloudFrame>,
     partial: bool,
@@ -69,6 +73,8 @@ impl BagRecording {
             robot: robot(&bag, &scan, chosen),
             paired: Paired::default(),
             names: Vec::new(),
+            masks: by_stamp(&scan, chosen.mask),
+            colors: by_stamp(&scan, chosen.color),
             clock_offset: None,
             cloud_frame: options.cloud_frame.or_else(|| known_cloud_frame(&bag)),
             partial: options.partial,
@@ -134,6 +140,11 @@ impl BagRecording {
         self.bag.kind()
     }
 
+    /// The files that it was read from.
+    pub fn sources(&self) -> Vec<PathBuf> {
+        self.bag.sources().map(Path::to_path_buf).collect()
+    }
+
     /// Damaged parts that were passed over.
     pub fn damage(&self) -> &[RecordingError] {
         &self.scan.damage
@@ -187,4 +198,14 @@ impl BagRecording {
         let field = format!("{}: {}", topic.name, problem.field);
         self.invalid(&field, problem.problem.clone(), "Record it again")
     }
+}
+
+/// The pictures of a topic that can be read, sorted by stamp.
+fn by_stamp(scan: &Scan, topic: Option<usize>) -> Vec<FrameEntry> {
+    let content = topic.and_then(|number| Some(&scan.topics.get(number)?.content));
+    let Some(Content::Pictures(pictures)) = content else { return Vec::new() };
+    let fit = pictures.frames.iter().filter(|entry| entry.unfit.is_none());
+    let mut sorted: Vec<_> = fit.cloned().collect();
+    sorted.sort_by_key(|entry| entry.stamp_ns);
+    sorted
 }

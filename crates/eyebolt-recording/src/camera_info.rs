@@ -34,7 +34,10 @@ struct Raw {
     k: Option<Vec<f64>>,
     #[serde(alias = "D")]
     d: Option<Vec<f64>>,
+    #[serde(alias = "P")]
+    p: Option<Vec<f64>>,
     camera_matrix: Option<RawMatrix>,
+    projection_matrix: Option<RawMatrix>,
     distortion_coefficients: Option<RawMatrix>,
     distortion_model: Option<String>,
     frame_id: Option<String>,
@@ -63,10 +66,19 @@ impl CameraInfo {
         Self::parse(path, &read_text(path, FIELD)?)
     }
 
+    /// As [`CameraInfo::read`]; `rectified` pictures have the intrinsics of `p`.
+    pub(crate) fn read_for(path: &Path, rectified: bool) -> Result<Self, RecordingError> {
+        Self::parse_for(path, &read_text(path, FIELD)?, rectified)
+    }
+
     /// As [`CameraInfo::read`], from text; `path` is for messages.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecordingError> {
+        Self::parse_for(path, text, false)
+    }
+
+    fn parse_for(path: &Path, text: &str, rectified: bool) -> Result<Self, RecordingError> {
         let mut bytes = text.as_bytes();
-        let raw: Raw = match serde_saphyr::read(&mut bytes).next() {
+        let mut raw: Raw = match serde_saphyr::read(&mut bytes).next() {
             Some(Ok(raw)) => raw,
             Some(Err(error)) => {
                 let error = error.without_snippet().to_string();
@@ -74,10 +86,31 @@ impl CameraInfo {
             }
             None => return Err(invalid(path, FIELD, "the file is empty", REMEDY)),
         };
+        if rectified {
+            raw.rectify();
+        }
         let camera = camera(path, &raw)?;
         let in_header = raw.header.and_then(|h| h.frame_id);
         let frame_id = in_header.or(raw.frame_id).filter(|id| !id.is_empty());
         Ok(Self { camera, frame_id })
+    }
+}
+
+impl Raw {
+    /// Takes the intrinsics of the rectified picture, which has no distortion left, where they are
+    /// told; drivers that do not rectify leave them out or at zero.
+    fn rectify(&mut self) {
+        let projection = self.projection_matrix.as_ref().map(|matrix| &matrix.data);
+        let p = self.p.as_ref().or(projection).map(Vec::as_slice);
+        if let Some(&[fx, skew, cx, _, k10, fy, cy, _, k20, k21, k22, _]) = p
+            && fx != 0.0
+            && fy != 0.0
+        {
+            self.k = Some(vec![fx, skew, cx, k10, fy, cy, k20, k21, k22]);
+            self.d = None;
+            self.distortion_coefficients = None;
+            self.distortion_model = None;
+        }
     }
 }
 
@@ -98,12 +131,9 @@ impl CameraInfo {
             distortion_model: Some(message.distortion_model.to_owned()),
             ..Raw::default()
         };
-        let [fx, skew, cx, _, k10, fy, cy, _, k20, k21, k22, _] = message.p;
-        // Drivers that do not rectify leave `p` empty.
-        if rectified && fx != 0.0 && fy != 0.0 {
-            raw.k = Some(vec![fx, skew, cx, k10, fy, cy, k20, k21, k22]);
-            raw.d = None;
-            raw.distortion_model = None;
+        raw.p = Some(message.p.to_vec());
+        if rectified {
+            raw.rectify();
         }
         let camera = camera(path, &raw)?;
         let frame_id = Some(message.header.frame_id.to_owned()).filter(|id| !id.is_empty());
@@ -129,7 +159,11 @@ pub(crate) fn camera_info_message<'a>(
         d: camera.distortion().coefficients().into_iter().take(count).collect(),
         k: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
         r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        p: [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+        // A picture with distortion was not rectified, whatever its topic is called.
+        p: match camera.distortion() {
+            Distortion::None => [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+            _ => [0.0; 12],
+        },
     }
 }
 

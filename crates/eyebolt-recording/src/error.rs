@@ -31,6 +31,14 @@ pub enum RecordingError {
         /// What to do about it.
         remedy: String,
     },
+    /// A frame saw nothing.
+    #[error("{path}: {field}: no pixel has depth. Record it again, or leave it out", path = path.display())]
+    EmptyFrame {
+        /// The recording.
+        path: PathBuf,
+        /// Topic and time of the frame.
+        field: String,
+    },
     /// There is no frame of that index.
     #[error("{path}: frame index {index} does not exist. The recording has {count} frames, counted from 0", path = path.display())]
     NoSuchFrame {
@@ -73,7 +81,7 @@ impl RecordingError {
         match self {
             Self::Invalid { problem, .. } => problem.clone(),
             Self::Read { cause, .. } => cause.to_string(),
-            Self::NoSuchFrame { .. } => self.to_string(),
+            Self::NoSuchFrame { .. } | Self::EmptyFrame { .. } => self.to_string(),
         }
     }
 
@@ -82,6 +90,7 @@ impl RecordingError {
         match &mut self {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
+            | Self::EmptyFrame { path, .. }
             | Self::NoSuchFrame { path, .. } => *path = told.to_path_buf(),
         }
         self
@@ -92,6 +101,7 @@ impl RecordingError {
         match self {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
+            | Self::EmptyFrame { path, .. }
             | Self::NoSuchFrame { path, .. } => path,
         }
     }

@@ -80,6 +80,11 @@ impl Folder {
         self.manifest.mask.is_some()
     }
 
+    /// The file that describes it.
+    pub(crate) fn path(&self) -> &Path {
+        &self.manifest.path
+    }
+
     /// Whether depth is stored in whole millimetres.
     pub(crate) fn in_millimetres(&self) -> bool {
         let depth = self.manifest.kind == RangeKind::Depth;

@@ -9,7 +9,7 @@ use crate::frame::Frame;
 use crate::manifest::RobotSection;
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_robot::JointPositions;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A recording of depth and joint positions. Frames are read when asked for, from as many threads
 /// as wanted.
@@ -117,6 +117,20 @@ impl Recording {
         match self {
             Self::Folder(folder) => folder.in_millimetres(),
             Self::Bag(bag) => bag.in_millimetres(),
+        }
+    }
+
+    /// Whether a frame that [`Self::read_frame`] fails with `error` for may be left out, since it is
+    /// one of many and saw nothing, or is damaged and that was said to be no matter.
+    pub fn may_leave_out(&self, error: &RecordingError) -> bool {
+        self.bag().is_some_and(|bag| bag.may_leave_out(error))
+    }
+
+    /// The files that the recording was read from, or the folder that they lie in.
+    pub fn sources(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Folder(folder) => vec![folder.path().to_path_buf()],
+            Self::Bag(bag) => bag.sources(),
         }
     }
 

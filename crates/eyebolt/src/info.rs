@@ -3,6 +3,8 @@
 mod advice;
 mod depth;
 
+pub use advice::NO_ROBOT;
+
 use crate::record::{OutsideLimits, RecordError, group_frames, outside_limits};
 use depth::depth_statistics;
 use eyebolt_recording::{DropReason, Recording, RecordingError, TopicSummary};
@@ -242,7 +244,8 @@ fn configurations(
     let mut groups: Vec<(JointPositions, Vec<usize>)> = Vec::new();
     for index in 0..names.len() {
         let joints = recording.read_joints(index)?;
-        match groups.iter_mut().find(|(first, _)| same_joints(first, &joints)) {
+        // From the last one, which it mostly is.
+        match groups.iter_mut().rev().find(|(first, _)| same_joints(first, &joints)) {
             Some((_, frames)) => frames.push(index),
             None => groups.push((joints, vec![index])),
         }

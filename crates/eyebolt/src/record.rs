@@ -10,7 +10,7 @@ pub(crate) use limits::outside_limits;
 
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{Base, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform};
-use eyebolt_recording::{Recording, RecordingError};
+use eyebolt_recording::{Frame, Recording, RecordingError};
 use eyebolt_registration::{ArmLink, ArmModel, LinkCache, Posture};
 use eyebolt_robot::{
     Arm, JointPositions, KinematicsError, Link, LinkPoses, MeshError, Prefer, TriangleMesh,
@@ -82,6 +82,12 @@ pub enum RecordError {
         /// The base link.
         base: String,
     },
+    /// Hardly two frames have the arm in one place.
+    #[error(
+        "the arm is in more than {MOST_GROUPS} places: it never rests. Let it rest in each of some \
+         configurations; with a bag, give a smaller --max-motion-deg"
+    )]
+    NeverAtRest,
     /// Clouds without a camera that do not tell their own.
     #[error(
         "frame {frame}: {problem}; add [camera] info = \"...\" to recording.toml, or give \
@@ -120,8 +126,7 @@ pub fn open(
         .map(|group| links.iter().filter_map(|l| group.first.base_from_links[*l]).collect())
         .collect();
     let chosen = spread::most_spread(&postures, options.most_configurations);
-    let first = chosen.iter().filter_map(|group| groups[*group].frames.first()).min();
-    let eye = eye::find(recording, &recording.read_frame(first.copied().unwrap_or_default())?)?;
+    let eye = eye::find(recording, &first_frame(recording, &groups[chosen[0]].frames)?)?;
     let reader = Reader { recording, eye: &eye, rays: RayTable::new(&eye.camera), options };
     let configurations = chosen.par_iter().map(|group| {
         let read = reader.configuration(&groups[*group].frames)?;
@@ -188,22 +193,41 @@ pub(crate) fn group_frames(recording: &Recording, arm: &Arm) -> Result<Vec<Group
     let mut groups: Vec<Group> = Vec::new();
     for (index, name) in recording.frame_names().iter().enumerate() {
         let placement = place(arm, name, &recording.read_joints(index)?)?;
-        let same = |group: &&mut Group| {
+        let same = |group: &Group| {
             group::same_place(&group.first.base_from_links, &placement.base_from_links)
         };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.frames.push(index),
-            None => groups.push(Group { frames: vec![index], first: placement }),
+        // From the last one, which it mostly is.
+        match groups.iter().rposition(same) {
+            Some(known) => groups[known].frames.push(index),
+            None if groups.len() < MOST_GROUPS => {
+                groups.push(Group { frames: vec![index], first: placement });
+            }
+            None => return Err(RecordError::NeverAtRest),
         }
     }
     Ok(groups)
 }
 
+/// Configurations that are told apart.
+const MOST_GROUPS: usize = 2000;
 /// Pixels of the images that one configuration is made from: enough frames for a median, few
 /// enough for memory.
 const MOST_PIXELS: usize = 12_000_000;
 const FEWEST_FRAMES: usize = 5;
 const MOST_FRAMES: usize = 30;
+
+/// The first of `frames` that can be read.
+fn first_frame(recording: &Recording, frames: &[usize]) -> Result<Frame, RecordError> {
+    let mut left_out = None;
+    for index in frames {
+        match recording.read_frame(*index) {
+            Err(error) if recording.may_leave_out(&error) => left_out = Some(error),
+            read => return Ok(read?),
+        }
+    }
+    // A group has a frame, so that one was left out.
+    Err(left_out.expect("a configuration has a frame").into())
+}
 
 /// Reads the frames of configurations.
 struct Reader<'a> {
@@ -223,13 +247,22 @@ impl Reader<'_> {
     fn configuration(&self, frames: &[usize]) -> Result<Seen, RecordError> {
         let camera = &self.eye.camera;
         let most = (MOST_PIXELS / camera.pixel_count().max(1)).clamp(FEWEST_FRAMES, MOST_FRAMES);
-        let (mut images, mut masks) = (Vec::new(), Vec::new());
+        let (mut images, mut masks, mut left_out) = (Vec::new(), Vec::new(), None);
         for index in evenly(frames, most) {
-            let frame = self.recording.read_frame(index)?;
+            let frame = match self.recording.read_frame(index) {
+                Err(error) if self.recording.may_leave_out(&error) => {
+                    left_out.get_or_insert(error);
+                    continue;
+                }
+                read => read?,
+            };
             let mask = frame.mask.filter(|_| self.options.use_masks);
             check_mask(&frame.name, mask.as_ref(), camera)?;
             images.push(self.eye.depth_image(&frame.range));
             masks.push(mask);
+        }
+        if let Some(error) = left_out.filter(|_| images.is_empty()) {
+            return Err(error.into());
         }
         let image = group::median_depth(&images).expect("a configuration has a frame");
         Ok(Seen { depth: self.along_rays(image), mask: group::common_mask(&masks) })

@@ -58,13 +58,16 @@ fn what_exists_is_replaced_only_when_told() {
     convert(&RECORDING, &folder, &[]).assert_error(1, &["folder", "exists", "--force"]);
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
     // Not even when told, if it is no recording.
-    convert(&RECORDING, &folder, &["--force"]).assert_error(1, &["folder", "no recording"]);
+    convert(&RECORDING, &folder, &["--force"]).assert_error(1, &["folder", "letter.txt"]);
+    fs::write(folder.join("recording.toml"), "").unwrap();
+    convert(&RECORDING, &folder, &["--force"]).assert_error(1, &["folder", "letter.txt"]);
     assert_eq!(fs::read_to_string(folder.join("letter.txt")).unwrap(), "precious");
     assert_eq!(convert(&RECORDING, &file, &["--force"]).code, Some(0));
     assert!(fs::read(&file).unwrap().starts_with(b"\x89MCAP0\r\n"));
-    fs::write(folder.join("recording.toml"), "").unwrap();
+    fs::remove_file(folder.join("letter.txt")).unwrap();
+    fs::write(folder.join("depth_77.png"), "").unwrap();
     assert_eq!(convert(&file, &folder, &["--force"]).code, Some(0));
-    assert!(!folder.join("letter.txt").exists() && folder.join("joints.csv").exists());
+    assert!(!folder.join("depth_77.png").exists() && folder.join("joints.csv").exists());
     assert_eq!(desk.names(), ["a.mcap", "folder"]);
 }
 
@@ -76,6 +79,16 @@ fn a_recording_is_not_written_over_itself() {
     let before = fs::read(&file).unwrap();
     convert(&file, &file, &["--force"]).assert_error(1, &["a.mcap", "the recording itself"]);
     assert!(fs::read(&file).unwrap() == before);
+    // Nor over the folder that it lies in, whichever of the two was named.
+    let folder = desk.file("folder");
+    assert_eq!(convert(&file, &folder, &[]).code, Some(0));
+    let described = folder.join("recording.toml");
+    convert(&described, &folder, &["--force"]).assert_error(1, &["folder", "the recording itself"]);
+    fs::create_dir(desk.file("bag")).unwrap();
+    let inner = desk.file("bag").join("a.mcap");
+    fs::rename(&file, &inner).unwrap();
+    convert(&desk.file("bag"), &inner, &["--force"]).assert_error(1, &["the recording itself"]);
+    assert!(fs::read(&inner).unwrap() == before && described.exists());
 }
 
 #[test]

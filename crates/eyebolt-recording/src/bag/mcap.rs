@@ -6,13 +6,13 @@
 mod chunk;
 mod fields;
 mod records;
+mod summary;
 
 use super::cache::ChunkCache;
 use super::{BagFile, LARGEST_CHUNK, Message, Place};
 use crate::error::RecordingError;
 use chunk::Unpacker;
-use fields::Fields;
-use records::{Topics, after_magic};
+use records::after_magic;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -23,8 +23,6 @@ pub(super) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 
 /// Bytes of the opcode and the length before every record.
 const FRAMING: u64 = 9;
-/// Bytes of the last record: where the summary and its offsets start, and a checksum.
-const FOOTER_BYTES: u64 = 20;
 
 /// A file in MCAP.
 #[derive(Debug)]
@@ -44,8 +42,10 @@ struct RecordHead {
     length: u64,
 }
 
-/// Takes a record and its body.
+/// What is done with records.
 type Visit<'a> = dyn FnMut(RecordHead, &[u8]) -> Result<(), RecordingError> + 'a;
+/// What is asked about damaged ones.
+type Damage<'a> = dyn FnMut(RecordingError) -> Result<(), RecordingError> + 'a;
 
 impl McapFile {
     pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
@@ -135,7 +135,7 @@ impl McapFile {
         &self,
         opcodes: &[u8],
         visit: &mut Visit<'_>,
-        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+        damage: &mut Damage<'_>,
     ) -> Result<(), RecordingError> {
         let file = File::open(&self.path).map_err(|cause| self.unreadable(cause))?;
         let mut reader = BufReader::with_capacity(1 << 20, file);
@@ -150,7 +150,7 @@ impl McapFile {
         mut at: u64,
         opcodes: &[u8],
         visit: &mut Visit<'_>,
-        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+        damage: &mut Damage<'_>,
     ) -> Result<(), RecordingError> {
         let mut body = Vec::new();
         loop {
@@ -173,48 +173,13 @@ impl McapFile {
             at = next;
         }
     }
-
-    /// Schemas and channels of the summary, if the file has one.
-    ///
-    /// Many writers tell them once, before the first message, and again in the summary.
-    fn summarised(&self) -> Topics {
-        use mcap::records::op::{CHANNEL, SCHEMA};
-        let mut topics = Topics::default();
-        let Some(start) = self.summary_start() else { return topics };
-        let Ok(file) = File::open(&self.path) else { return topics };
-        let mut reader = BufReader::new(file);
-        if reader.seek(SeekFrom::Start(start)).is_ok() {
-            let mut visit = |head: RecordHead, body: &[u8]| {
-                topics.summary(head.opcode, body);
-                Ok(())
-            };
-            // Only a help: the file is read without.
-            drop(self.records_from(&mut reader, start, &[SCHEMA, CHANNEL], &mut visit, &mut Err));
-        }
-        topics
-    }
-
-    /// Where the summary starts, which the footer tells.
-    fn summary_start(&self) -> Option<u64> {
-        let at = self.length.checked_sub(FRAMING + FOOTER_BYTES + MAGIC.len() as u64)?;
-        let mut file = File::open(&self.path).ok()?;
-        file.seek(SeekFrom::Start(at)).ok()?;
-        let mut footer = Vec::new();
-        file.take(FRAMING + FOOTER_BYTES).read_to_end(&mut footer).ok()?;
-        let mut fields = Fields::new(&footer);
-        let opcode = fields.bytes(1).ok()?;
-        let length = fields.u64().ok()?;
-        let start = fields.u64().ok()?;
-        let is_footer = opcode == [mcap::records::op::FOOTER] && length == FOOTER_BYTES;
-        Some(start).filter(|start| is_footer && (1..at).contains(start))
-    }
 }
 
 impl BagFile for McapFile {
     fn scan(
         &self,
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
-        damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
+        damage: &mut Damage<'_>,
     ) -> Result<(), RecordingError> {
         use mcap::records::op::{CHANNEL, CHUNK, MESSAGE, SCHEMA};
         let mut topics = self.summarised();

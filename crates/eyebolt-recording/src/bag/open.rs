@@ -1,17 +1,19 @@
-//! Which files a bag is, and of which kind each is.
+//! A bag of one file or several, of whatever kind.
+
+mod files;
+
+pub use files::is_bag;
 
 use super::mcap::McapFile;
 use super::ros1::Ros1Bag;
 use super::sqlite::SqliteFile;
 use super::zstd::Unzipper;
-use super::{BagFile, Message, Place, mcap, sqlite, zstd};
+use super::{BagFile, Message, Place, zstd};
 use crate::error::RecordingError;
-use crate::file::read_text;
-use serde::Deserialize;
+use files::{METADATA, Magic, magic};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Read;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// What wrote a bag.
@@ -38,16 +40,10 @@ impl BagKind {
 
 /// Where a message lies: which file, and where in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(Default))]
 pub(crate) struct Locator {
     file: u32,
     place: Place,
-}
-
-#[cfg(test)]
-impl Default for Locator {
-    fn default() -> Self {
-        Self { file: 0, place: Place::Row(0) }
-    }
 }
 
 impl Locator {
@@ -74,98 +70,11 @@ pub(crate) struct Bag {
     _unzipped: Vec<NamedTempFile>,
 }
 
-/// Name of the file that ROS 2 puts beside the files of a bag.
-const METADATA: &str = "metadata.yaml";
-
-/// Whether there is a bag at `path`, by its first bytes; of a folder, whether a file in it is called
-/// like one.
-pub fn is_bag(path: &Path) -> bool {
-    if !path.is_dir() {
-        return magic(path).is_some();
-    }
-    path.join(METADATA).is_file() || !files_in(path).is_empty()
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Magic {
-    Bag(BagKind),
-    Zstd,
-}
-
-fn magic(path: &Path) -> Option<Magic> {
-    let mut bytes = Vec::new();
-    File::open(path).ok()?.take(16).read_to_end(&mut bytes).ok()?;
-    if bytes.starts_with(&mcap::MAGIC) {
-        Some(Magic::Bag(BagKind::Mcap))
-    } else if bytes.starts_with(sqlite::FILE_MAGIC) {
-        Some(Magic::Bag(BagKind::Sqlite))
-    } else if bytes.starts_with(b"#ROSBAG V") {
-        Some(Magic::Bag(BagKind::Ros1))
-    } else {
-        bytes.starts_with(&zstd::MAGIC).then_some(Magic::Zstd)
-    }
-}
-
-/// The files of a folder that are bags by their names, sorted by these.
-fn files_in(folder: &Path) -> Vec<PathBuf> {
-    let named = |path: &PathBuf| {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let name = name.strip_suffix(".zstd").or(name.strip_suffix(".zst")).unwrap_or(name);
-        [".mcap", ".db3", ".bag"].iter().any(|ending| name.ends_with(ending))
-    };
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<_> = entries.map(|entry| entry.path()).filter(named).collect();
-    files.sort_by(|a, b| crate::pattern::natural_order(&a.to_string_lossy(), &b.to_string_lossy()));
-    files
-}
-
-#[derive(Debug, Deserialize)]
-struct Metadata {
-    rosbag2_bagfile_information: Information,
-}
-
-#[derive(Debug, Deserialize)]
-struct Information {
-    relative_file_paths: Vec<String>,
-}
-
-/// The files that the `metadata.yaml` of `folder` lists.
-fn listed_files(folder: &Path) -> Result<Vec<PathBuf>, RecordingError> {
-    let path = folder.join(METADATA);
-    let remedy = "Rebuild it with `ros2 bag reindex`, or give the bag's file itself";
-    let invalid =
-        |field: &str, problem: String| RecordingError::invalid(&path, field, problem, remedy);
-    let text = read_text(&path, "the bag's description")?;
-    let metadata: Metadata = serde_saphyr::from_str(&text)
-        .map_err(|error| invalid("YAML", error.without_snippet().to_string()))?;
-    let file = |name: &String| {
-        let relative = Path::new(name);
-        let inside = relative.components().all(|part| matches!(part, Component::Normal(_)));
-        // Old versions wrote the folder's name before the file's.
-        let short = folder.join(relative.file_name().unwrap_or_default());
-        let file = if short.is_file() { short } else { folder.join(relative) };
-        match inside && file.is_file() {
-            true => Ok(file),
-            false => {
-                let problem = format!("\"{name}\" is not a file in the folder");
-                Err(invalid("relative_file_paths", problem))
-            }
-        }
-    };
-    metadata.rosbag2_bagfile_information.relative_file_paths.iter().map(file).collect()
-}
-
 impl Bag {
     /// Opens the bag that `path` is, or that lies in the folder `path`. Files compressed as a whole
     /// are decompressed to the folder `scratch` for as long as the bag is open.
     pub(crate) fn open(path: &Path, scratch: &Path) -> Result<Self, RecordingError> {
-        let paths = if !path.is_dir() {
-            vec![path.to_path_buf()]
-        } else if path.join(METADATA).is_file() {
-            listed_files(path)?
-        } else {
-            one_file(path)?
-        };
+        let paths = files::of_bag(path)?;
         let mut bag =
             Self { files: Vec::new(), kind: BagKind::Mcap, metadata: None, _unzipped: Vec::new() };
         for path in &paths {
@@ -211,6 +120,11 @@ impl Bag {
             BagKind::Sqlite => Box::new(SqliteFile::open(path)?),
             BagKind::Ros1 => Box::new(Ros1Bag::open(path)?),
         })
+    }
+
+    /// The files, under the paths by which people know them.
+    pub(crate) fn sources(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|(_, path)| path.as_path())
     }
 
     pub(crate) fn kind(&self) -> BagKind {
@@ -275,16 +189,4 @@ impl Bag {
 /// Whether a message is compressed by itself, as ROS 2 does it on demand in any kind of file.
 fn zipped(data: &[u8]) -> bool {
     data.starts_with(&zstd::MAGIC)
-}
-
-/// The only bag in a folder without a description.
-fn one_file(folder: &Path) -> Result<Vec<PathBuf>, RecordingError> {
-    let files = files_in(folder);
-    if files.len() <= 1 {
-        return Ok(files);
-    }
-    let names: Vec<_> = files.iter().map(|file| file.display().to_string()).collect();
-    let problem = format!("the folder has no {METADATA} and several bags: {}", names.join(", "));
-    let remedy = "Give one of them, or rebuild the description with `ros2 bag reindex`";
-    Err(RecordingError::invalid(folder, "bag", problem, remedy))
 }

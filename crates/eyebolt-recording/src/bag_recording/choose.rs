@@ -38,12 +38,16 @@ impl Chosen {
             Some(_) => None,
             None => choice.camera_info(options.camera_info_topic.as_deref(), range)?,
         };
-        let color =
-            choice.beside(range, "--color-topic", options.color_topic.as_deref(), is_color)?;
-        let mask =
-            choice.beside(range, "--mask-topic", options.mask_topic.as_deref(), |topic| {
-                topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
-            })?;
+        let info_size = camera_info.and_then(|number| size(scan.topics.get(number)?));
+        let beside = choice.beside(range, info_size);
+        let color = match options.color_topic.as_deref() {
+            None => choice.only(&|topic| is_color(topic) && beside(topic)),
+            wanted => choice.one("--color-topic", PICTURES, wanted, &|t| encoding(t).is_some())?,
+        };
+        let mask = match options.mask_topic.as_deref() {
+            None => choice.one("--mask-topic", PICTURES, None, &|t| is_mask(t) && beside(t))?,
+            wanted => choice.one("--mask-topic", PICTURES, wanted, &|t| encoding(t).is_some())?,
+        };
         let description = choice.one(
             "--description-topic",
             "a robot description (std_msgs/String)",
@@ -71,6 +75,12 @@ fn encoding(topic: &TopicScan) -> Option<&str> {
     }
 }
 
+const PICTURES: &str = "pictures (sensor_msgs/Image)";
+
+fn is_mask(topic: &TopicScan) -> bool {
+    topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
+}
+
 fn is_color(topic: &TopicScan) -> bool {
     encoding(topic).is_some_and(|encoding| COLORS.contains(&encoding))
 }
@@ -93,6 +103,14 @@ fn rank(topic: &TopicScan) -> Option<u8> {
     }
 }
 
+/// Name of the compressed form of a topic, below it.
+const COMPRESSED: &str = "/compressedDepth";
+
+/// Pictures of one number a pixel that are no depth.
+fn is_no_depth(name: &str) -> bool {
+    name.contains("confidence") || name.contains("disparity")
+}
+
 struct Choice<'a> {
     path: &'a Path,
     scan: &'a Scan,
@@ -102,9 +120,22 @@ impl Choice<'_> {
     fn range(&self, wanted: Option<&str>) -> Result<usize, RecordingError> {
         let what = "depth (Image in 16UC1 or 32FC1, compressedDepth, or PointCloud2)";
         // A camera's depth image is often recorded beside the cloud that was made of it.
-        let best = self.scan.topics.iter().filter_map(rank).min();
-        let fits =
-            |topic: &TopicScan| rank(topic).is_some() && (wanted.is_some() || rank(topic) == best);
+        let topics = || self.scan.topics.iter().filter(|topic| !is_no_depth(&topic.name));
+        let best = topics().filter_map(rank).min();
+        // And beside its compressed form.
+        let twice = |topic: &TopicScan| {
+            let raw = topic.name.strip_suffix(COMPRESSED);
+            raw.is_some_and(|raw| topics().any(|t| t.name == raw && rank(t) == best))
+        };
+        let fits = |topic: &TopicScan| match wanted {
+            Some(_) => rank(topic).is_some(),
+            None => {
+                rank(topic).is_some()
+                    && rank(topic) == best
+                    && !is_no_depth(&topic.name)
+                    && !twice(topic)
+            }
+        };
         let found = self.one("--depth-topic", what, wanted, &fits)?;
         found.ok_or_else(|| self.none("--depth-topic", what))
     }
@@ -207,32 +238,29 @@ impl Choice<'_> {
         }
     }
 
-    /// A topic of pictures that show what the depth shows, pixel by pixel.
-    fn beside(
-        &self,
-        range: usize,
-        flag: &str,
-        wanted: Option<&str>,
-        fits: impl Fn(&TopicScan) -> bool,
-    ) -> Result<Option<usize>, RecordingError> {
-        if wanted.is_some() {
-            return self.one(flag, "pictures (sensor_msgs/Image)", wanted, &|topic| {
-                encoding(topic).is_some()
-            });
+    /// Whether a topic shows what the depth shows, pixel by pixel; `info_size` is the size of the
+    /// depth where its own messages do not tell.
+    fn beside(&self, range: usize, info_size: Option<(u32, u32)>) -> impl Fn(&TopicScan) -> bool {
+        let depth = self.scan.topics.get(range);
+        let depth_size = depth.and_then(size).or(info_size);
+        move |topic| {
+            size(topic) == depth_size && depth.is_some_and(|depth| topic.frame_id == depth.frame_id)
         }
-        let Some(depth) = self.scan.topics.get(range) else { return Ok(None) };
-        let mut fitting = self.scan.topics.iter().enumerate().filter(|(_, topic)| {
-            fits(topic) && size(topic) == size(depth) && topic.frame_id == depth.frame_id
-        });
-        // Pictures are for people: among several, none is better than the wrong one.
-        Ok(fitting.next().map(|(number, _)| number).filter(|_| fitting.next().is_none()))
+    }
+
+    /// The only topic that `fits`. Colour is for people: among several, none is better than the
+    /// wrong one.
+    fn only(&self, fits: &dyn Fn(&TopicScan) -> bool) -> Option<usize> {
+        let mut fitting = self.scan.topics.iter().enumerate().filter(|(_, topic)| fits(topic));
+        let found = fitting.next().map(|(number, _)| number);
+        found.filter(|_| fitting.next().is_none())
     }
 }
 
 /// Where drivers publish the intrinsics of a topic of pictures, or of its compressed form.
 fn siblings(topic: &str) -> Vec<String> {
     let above = |name: &str| name.rsplit_once('/').map(|(above, _)| above.to_owned());
-    let picture = topic.strip_suffix("/compressedDepth");
+    let picture = topic.strip_suffix(COMPRESSED);
     let folders = [above(topic), picture.and_then(above)];
     folders.into_iter().flatten().map(|folder| format!("{folder}/camera_info")).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::BagRecording;
 use super::choose::Chosen;
-use super::scan::{Content, PictureKind};
+use super::scan::{Content, PictureKind, is_static};
 use crate::bag::{Message, Topic};
 use crate::error::RecordingError;
 use crate::manifest::CloudFrame;
@@ -36,8 +36,11 @@ impl BagRecording {
         self.bag.scan(&mut |_, message| each(message), &mut damage)
     }
 
-    /// Whether the messages of `topic` are part of the recording.
+    /// Whether the messages of `topic` are part of the recording, or static transforms.
     pub(crate) fn is_chosen(&self, topic: &Topic) -> bool {
+        if is_static(&topic.name) {
+            return true;
+        }
         let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
         let others = [camera_info, description, color, mask];
         let mut all = [range, joints].into_iter().chain(others.into_iter().flatten());

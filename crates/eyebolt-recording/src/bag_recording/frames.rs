@@ -41,7 +41,7 @@ impl BagRecording {
     pub fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         let entry = self.entry(index)?;
         let Some(number) = self.chosen.color else { return Ok(None) };
-        let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
+        let Some(picture) = nearest(&self.colors, entry.stamp_ns) else { return Ok(None) };
         let size = self.camera().map(|camera| (camera.width(), camera.height()));
         self.image(number, picture.locator, |image| {
             let (width, height) = (image.width, image.height);
@@ -91,8 +91,22 @@ impl BagRecording {
         // Of most kinds the scan saw that.
         match image.depth_m().iter().any(|depth| *depth > 0.0) {
             true => Ok(Range::Depth(image)),
-            false => Err(wrong(WireProblem::new("data", "no pixel has depth"))),
+            false => Err(self.empty_frame(entry)),
         }
+    }
+
+    fn empty_frame(&self, entry: &FrameEntry) -> RecordingError {
+        RecordingError::EmptyFrame {
+            path: self.path.clone(),
+            field: frame_field(self.range_topic(), entry),
+        }
+    }
+
+    /// Whether a frame that fails so may be left out: one without depth, of which only the reading
+    /// of compressed images tells, or a damaged one where damage is passed over.
+    pub fn may_leave_out(&self, error: &RecordingError) -> bool {
+        let damaged = matches!(error, RecordingError::Invalid { .. });
+        matches!(error, RecordingError::EmptyFrame { .. }) || (self.partial && damaged)
     }
 
     fn check_depth(
@@ -166,7 +180,7 @@ impl BagRecording {
 
     fn mask(&self, entry: &FrameEntry, range: &Range) -> Result<Option<Mask>, RecordingError> {
         let Some(number) = self.chosen.mask else { return Ok(None) };
-        let Some(picture) = nearest(self.entries(number), entry.stamp_ns) else { return Ok(None) };
+        let Some(picture) = nearest(&self.masks, entry.stamp_ns) else { return Ok(None) };
         let mask = self.image(number, picture.locator, |image| image.mask())?;
         match range.size() {
             None => {
@@ -179,7 +193,7 @@ impl BagRecording {
             Some(size) if size != (mask.width(), mask.height()) => {
                 let (w, h) = (mask.width(), mask.height());
                 let problem = format!("the mask is {w} x {h}, the frame {} x {}", size.0, size.1);
-                let field = frame_field(self.topic(number), picture);
+                let field = frame_field(self.topic(number), &picture);
                 Err(self.invalid(&field, problem, "Both must be of the same camera and size"))
             }
             _ => Ok(Some(mask)),
@@ -220,9 +234,10 @@ fn norm([x, y, z]: &[f32; 3]) -> f32 {
     x.hypot(*y).hypot(*z)
 }
 
-/// The picture of the moment `stamp_ns`, if there is one.
-fn nearest(entries: &[FrameEntry], stamp_ns: i64) -> Option<&FrameEntry> {
-    let fit = entries.iter().filter(|entry| entry.unfit.is_none());
-    let nearest = fit.min_by_key(|entry| entry.stamp_ns.abs_diff(stamp_ns));
-    nearest.filter(|entry| entry.stamp_ns.abs_diff(stamp_ns) <= SAME_MOMENT_NS)
+/// The picture of the moment `stamp_ns`, if there is one among those sorted by stamp.
+fn nearest(sorted: &[FrameEntry], stamp_ns: i64) -> Option<FrameEntry> {
+    let after = sorted.partition_point(|entry| entry.stamp_ns < stamp_ns);
+    let around = sorted.get(after.saturating_sub(1)..).unwrap_or_default().iter().take(2);
+    let nearest = around.min_by_key(|entry| entry.stamp_ns.abs_diff(stamp_ns));
+    nearest.filter(|entry| entry.stamp_ns.abs_diff(stamp_ns) <= SAME_MOMENT_NS).cloned()
 }

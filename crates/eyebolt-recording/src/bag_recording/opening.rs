@@ -8,50 +8,18 @@ use super::{BagOptions, BagRecording, pair, skew};
 use crate::bag::Bag;
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
-use crate::joints::{self, looks_like_degrees};
 use crate::manifest::{CloudFrame, RobotSection};
-use crate::message::{CameraInfoMessage, WireReader};
+use crate::message::{CameraInfoMessage, WireReader, types};
 use crate::write::check_names;
 
 impl BagRecording {
-    /// What is wrong with a topic that the recording needs is wrong with the recording.
-    pub(super) fn check_topics(&self) -> Result<(), RecordingError> {
-        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
-        let needed = [camera_info, description, color, mask];
-        for number in [range, joints].into_iter().chain(needed.into_iter().flatten()) {
-            let topic = self.topic(number);
-            if let Some((log_time_ns, problem)) =
-                topic.first_problem.as_ref().filter(|_| !self.partial)
-            {
-                let field = format!("{}: {}", topic.name, problem.field);
-                let text = format!("{} (message of {})", problem.problem, seconds(*log_time_ns));
-                let remedy = "Record it again, or give --partial to go without such messages";
-                return Err(self.invalid(&field, text, remedy));
-            }
-            let (backward, first) = topic.backward();
-            if let Some((latest, next)) = first
-                && backward > (topic.count / MOST_BACKWARD).max(1)
-            {
-                let problem = format!(
-                    "{backward} of {} stamps run backward, first from {} to {}",
-                    topic.count,
-                    seconds(latest),
-                    seconds(next)
-                );
-                let remedy =
-                    "Two programs publish there, or the clock was set back: record it again";
-                return Err(self.invalid(&topic.name, problem, remedy));
-            }
-        }
-        let topic = camera_info.map(|number| self.topic(number));
-        if let Some(topic) = topic
-            && let Content::CameraInfo { changed_ns: Some(changed), .. } = &topic.content
-        {
-            let problem = format!("the intrinsics change at {}", seconds(*changed));
-            let remedy = "Record with one setting of the camera, or give --camera-info with a file";
-            return Err(self.invalid(&topic.name, problem, remedy));
-        }
-        Ok(())
+    /// Whether the frames are of a rectified picture. By ROS's convention, these have a word for it
+    /// in their name, and clouds are made of them.
+    fn is_rectified(&self) -> bool {
+        let topic = self.range_topic();
+        let name = topic.name.strip_suffix("/compressedDepth").unwrap_or(&topic.name);
+        let mut words = name.rsplit('/').next().unwrap_or_default().split('_');
+        topic.message_type == types::CLOUD || words.any(|w| matches!(w, "rect" | "rectified"))
     }
 
     /// The camera, from the file that an option names or from its topic.
@@ -60,7 +28,7 @@ impl BagRecording {
         options: &BagOptions,
     ) -> Result<Option<CameraInfo>, RecordingError> {
         if let Some(path) = &options.camera_info {
-            return CameraInfo::read(path).map(Some);
+            return CameraInfo::read_for(path, self.is_rectified()).map(Some);
         }
         let Some(topic) = self.chosen.camera_info.map(|number| self.topic(number)) else {
             return Ok(None);
@@ -72,8 +40,7 @@ impl BagRecording {
         let message = WireReader::new(&topic.encoding, &bytes)
             .and_then(|mut reader| CameraInfoMessage::read(&mut reader))
             .map_err(|problem| self.unreadable(topic, &problem))?;
-        // By ROS's convention, pictures called so were rectified.
-        let rectified = self.range_topic().name.contains("rect");
+        let rectified = self.is_rectified();
         let info = CameraInfo::from_message(&self.path, &message, rectified);
         info.map(Some).map_err(|error| match error {
             RecordingError::Invalid { field, problem, .. } => {
@@ -106,11 +73,10 @@ impl BagRecording {
                           as rest";
             return Err(self.invalid(&range.name, problem, remedy));
         }
-        let name = match self.known_names()?.filter(|names| names.len() == frames.len()) {
-            Some(names) => {
-                Box::new(move |index: usize| names[index].clone()) as Box<dyn Fn(_) -> _>
-            }
-            None => Box::new(|index: usize| index.to_string()),
+        let known = self.known_names()?.filter(|names| names.len() == frames.len());
+        let name = |index: usize| {
+            let known = known.as_ref().and_then(|names| names.get(index));
+            known.cloned().unwrap_or_else(|| index.to_string())
         };
         self.names = paired.kept.iter().map(|kept| name(kept.index)).collect();
         self.clock_offset = offset;
@@ -128,31 +94,6 @@ impl BagRecording {
         check_names(&self.path, &names)?;
         Ok(Some(names))
     }
-
-    /// Joints in degrees would put the arm anywhere.
-    pub(super) fn check_joints(&self) -> Result<(), RecordingError> {
-        let farthest = |joint: usize| {
-            let positions = self.paired.kept.iter().filter_map(|kept| kept.positions.get(joint));
-            positions.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
-        };
-        let joints = self.paired.names.iter().enumerate();
-        let joints = joints.map(|(joint, name)| (name, farthest(joint)));
-        let suspects: Vec<_> = joints.filter(|(_, far)| looks_like_degrees(*far)).collect();
-        // Wheels, which a topic may tell of too, do turn so far; they are the lesser part.
-        match suspects.first() {
-            Some((name, position)) if 2 * suspects.len() >= self.paired.names.len() => {
-                joints::check(&self.path, &self.topic(self.chosen.joints).name, "", name, *position)
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// One stamp of so many may run backward: networks deliver some messages out of order.
-const MOST_BACKWARD: u64 = 100;
-
-fn seconds(ns: i64) -> String {
-    format!("{:.3} s", ns as f64 * 1e-9)
 }
 
 /// The frame of clouds that a flag once said, where eyebolt wrote the bag.

@@ -128,16 +128,25 @@ impl Scan {
         topic.last_ns = topic.last_ns.max(message.log_time_ns);
         match topic.read(message, locator) {
             Ok(found) => {
-                let room = MOST_TRANSFORMS.saturating_sub(self.static_transforms.len());
-                for transform in found.into_iter().take(room) {
-                    self.static_transforms.retain(|other| other.child != transform.child);
-                    self.static_transforms.push(transform);
-                }
+                found.into_iter().for_each(|transform| self.add_transform(transform));
             }
             Err(problem) => {
                 topic.unreadable += 1;
                 topic.first_problem.get_or_insert((message.log_time_ns, problem));
             }
+        }
+    }
+
+    /// Publishers tell their transforms again and again; two parents of a frame are kept, for
+    /// whoever reads them to complain about.
+    fn add_transform(&mut self, transform: StaticTransform) {
+        let same = |other: &&mut StaticTransform| {
+            (&other.parent, &other.child) == (&transform.parent, &transform.child)
+        };
+        if let Some(known) = self.static_transforms.iter_mut().find(same) {
+            *known = transform;
+        } else if self.static_transforms.len() < MOST_TRANSFORMS {
+            self.static_transforms.push(transform);
         }
     }
 
@@ -223,14 +232,14 @@ impl TopicScan {
             }
             Content::Pictures(pictures) => {
                 let header = reader().and_then(|mut reader| Header::read(&mut reader));
-                let stamp_ns = match &header {
+                let stamp = match &header {
                     Ok(header) => {
                         note_frame(&mut self.frame_id, header);
-                        self.stamps.add(header.stamp_ns, log_time_ns)
+                        (self.stamps.add(header.stamp_ns, log_time_ns), header.stamp_ns == 0)
                     }
-                    Err(_) => log_time_ns,
+                    Err(_) => (log_time_ns, true),
                 };
-                pictures.add(&self.message_type, reader(), stamp_ns, locator)?;
+                pictures.add(&self.message_type, reader(), stamp, locator)?;
             }
             Content::Joints(tracks) => {
                 let joints = JointStateMessage::read(&mut reader()?)?;
@@ -264,4 +273,9 @@ fn note_frame(frame_id: &mut Option<String>, header: &Header<'_>) {
     if frame_id.is_none() && !header.frame_id.is_empty() {
         *frame_id = Some(header.frame_id.trim_start_matches('/').to_owned());
     }
+}
+
+/// Whether a topic tells transforms that never change: `/tf_static`, in any namespace.
+pub(super) fn is_static(topic: &str) -> bool {
+    topic.rsplit('/').next() == Some("tf_static")
 }

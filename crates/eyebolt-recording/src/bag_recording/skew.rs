@@ -53,7 +53,9 @@ pub(super) fn skew(frames: &[FrameEntry], tracks: &[&Track], shift_ns: i64) -> O
     let correlations: Vec<f64> = lags
         .iter()
         .map(|lag| {
-            let moved = intervals.iter().map(|i| path.at(i.to_ns + lag) - path.at(i.from_ns + lag));
+            let moved = intervals.iter().map(|i| {
+                path.at(i.to_ns.saturating_add(*lag)) - path.at(i.from_ns.saturating_add(*lag))
+            });
             correlation(&changes, &moved.collect::<Vec<_>>()).unwrap_or(0.0)
         })
         .collect();
@@ -77,7 +79,8 @@ fn intervals(frames: &[FrameEntry], shift_ns: i64) -> Vec<Interval> {
     let pairs = frames.windows(2).filter_map(|pair| {
         let [a, b] = pair else { return None };
         let step = b.stamp_ns.checked_sub(a.stamp_ns)?;
-        let known = (1..=LONGEST_INTERVAL_NS).contains(&step) && b.change.is_finite();
+        let stamped = !a.stands_in && !b.stands_in;
+        let known = stamped && (1..=LONGEST_INTERVAL_NS).contains(&step) && b.change.is_finite();
         let (from_ns, to_ns) = (shifted(a.stamp_ns), shifted(b.stamp_ns));
         known.then_some(Interval { from_ns, to_ns, change: f64::from(b.change) })
     });
@@ -102,10 +105,16 @@ impl Path {
         let start_ns = intervals.first()?.from_ns.saturating_sub(2 * REACH_NS);
         let end_ns = intervals.last()?.to_ns.saturating_add(2 * REACH_NS);
         let steps = end_ns.saturating_sub(start_ns) / STEP_NS;
+        let joints: Vec<Vec<usize>> =
+            tracks.iter().map(|track| (0..track.names().len()).collect()).collect();
         let (mut gone, mut sum, mut moving) = (vec![0.0], 0.0, 0);
         for step in 0..steps {
-            let from_ns = start_ns + step * STEP_NS;
-            let motions = tracks.iter().map(|t| t.motion(from_ns, from_ns + STEP_NS, REACH_NS));
+            let from_ns = start_ns.saturating_add(step * STEP_NS);
+            let to_ns = from_ns.saturating_add(STEP_NS);
+            let motions = tracks
+                .iter()
+                .zip(&joints)
+                .map(|(track, joints)| track.motion(joints, from_ns, to_ns, REACH_NS).0);
             let motion = motions.fold(0.0, f64::max).min(FASTEST);
             moving += i64::from(motion > 0.1 * FASTEST);
             sum += motion;
@@ -115,7 +124,7 @@ impl Path {
     }
 
     fn at(&self, time_ns: i64) -> f64 {
-        let place = (time_ns - self.start_ns) as f64 / STEP_NS as f64;
+        let place = time_ns.saturating_sub(self.start_ns) as f64 / STEP_NS as f64;
         let at = |index: usize| self.gone.get(index).or(self.gone.last()).copied().unwrap_or(0.0);
         let index = place.max(0.0) as usize;
         at(index) + (place - index as f64) * (at(index + 1) - at(index))

@@ -81,6 +81,9 @@ pub struct ClockOffset {
 
 /// Delays differ by so much between two topics of one clock, for want of a better word: transport.
 const SAME_CLOCK_S: f64 = 1.0;
+/// Where the times of recording stand for stamps, what transport takes is in doubt: filters and
+/// networks delay depth by so much.
+pub(super) const TRANSPORT_S: f64 = 0.15;
 
 /// The offset between the clock of depth and that of joints.
 pub(super) fn clock_offset(depth: &Stamps, joints: &Stamps) -> Option<ClockOffset> {
@@ -92,7 +95,7 @@ pub(super) fn clock_offset(depth: &Stamps, joints: &Stamps) -> Option<ClockOffse
     let applied = offset.abs() > SAME_CLOCK_S;
     let spread = spread(depth_low, depth_high).max(spread(joints_low, joints_high));
     // Where nothing is shifted, the offset itself may be one of the clocks or of the transport.
-    let uncertainty_s = if applied { spread } else { offset.abs() };
+    let uncertainty_s = if applied { spread + TRANSPORT_S } else { offset.abs() };
     Some(ClockOffset { seconds: offset, uncertainty_s, applied, seen: false })
 }
 
@@ -124,7 +127,7 @@ mod tests {
         }
         let offset = clock_offset(&depth, &joints).unwrap();
         assert!(offset.applied && (offset.seconds - (start as f64 * 1e-9 + 0.028)).abs() < 1e-3);
-        assert!((offset.uncertainty_s - 0.002).abs() < 1e-9);
+        assert!((offset.uncertainty_s - 0.002 - TRANSPORT_S).abs() < 1e-9);
     }
 
     #[test]

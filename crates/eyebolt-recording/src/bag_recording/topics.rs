@@ -1,7 +1,8 @@
 //! The topics of a bag, for people, and what else a bag tells without being a recording.
 
 use super::choose::Chosen;
-use super::scan::{Scan, TopicScan};
+use super::scan::{Content, Scan, TopicScan};
+use super::track::Track;
 use super::{BagOptions, BagRecording};
 use crate::bag::Bag;
 use crate::error::RecordingError;
@@ -113,5 +114,17 @@ fn problems(topic: &TopicScan) -> Vec<String> {
     if backward > 0 {
         problems.push(format!("{backward} time stamps run backward"));
     }
+    if let Content::Joints(joints) = &topic.content {
+        let coarsest = joints.tracks().iter().map(Track::tolerance).fold(0.0, f64::max);
+        if coarsest > COARSE {
+            problems.push(format!(
+                "so many positions differ that they are kept to {:.1} mrad or mm only",
+                1e3 * coarsest
+            ));
+        }
+    }
     problems
 }
+
+/// A line through joint positions that is not nearer to them is worth a word, radians or metres.
+const COARSE: f64 = 5e-4;

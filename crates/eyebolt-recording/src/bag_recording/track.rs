@@ -4,7 +4,7 @@
 ///
 /// A sample that lies on the line between others is not kept, so that hours of an arm at rest take
 /// no memory: the "swinging door" of E. H. Bristol ("Swinging door trending", 1990). The line is
-/// within twice `tolerance` of every sample.
+/// within twice `tolerance` of every sample, or four times where that had to be doubled.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     names: Vec<String>,
@@ -51,6 +51,11 @@ impl Track {
 
     pub(super) fn names(&self) -> &[String] {
         &self.names
+    }
+
+    /// How far the line may be from a sample, radians or metres.
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     /// Number of samples.
@@ -193,17 +198,37 @@ impl Track {
             .min_by_key(|(stamp, _)| stamp.abs_diff(stamp_ns))
     }
 
-    /// How far the joint that moves most is seen to move between two times, radians or metres.
+    /// Whether its samples are mostly further apart than `dense_ns`.
+    pub(super) fn is_sparse(&self, dense_ns: i64) -> bool {
+        let span_ns = self.span_ns().map_or(0, |(first, last)| last.saturating_sub(first));
+        // One sample more than there are steps between them.
+        span_ns as f64 >= dense_ns as f64 * self.count.saturating_sub(2) as f64
+    }
+
+    /// The turn before `stamp_ns`, else the first one: what was told last.
+    pub(super) fn held(&self, stamp_ns: i64) -> Vec<f64> {
+        let after = self.stamps_ns.partition_point(|stamp| *stamp <= stamp_ns);
+        self.at_turn(after.saturating_sub(1)).to_vec()
+    }
+
+    /// How far the one of `joints` that moves most is seen to move between two times, radians or
+    /// metres, and which one that is.
     ///
     /// What it did in gaps longer than `gap_ns` nobody knows.
-    pub(super) fn motion(&self, from_ns: i64, to_ns: i64, gap_ns: i64) -> f64 {
+    pub(super) fn motion(
+        &self,
+        joints: &[usize],
+        from_ns: i64,
+        to_ns: i64,
+        gap_ns: i64,
+    ) -> (f64, usize) {
         let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); self.names.len()];
         let mut see = |positions: &[f64]| {
             for (range, position) in ranges.iter_mut().zip(positions) {
                 *range = (range.0.min(*position), range.1.max(*position));
             }
         };
-        let Some((first, last)) = self.span_ns() else { return 0.0 };
+        let Some((first, last)) = self.span_ns() else { return (0.0, 0) };
         for stamp in [from_ns, to_ns].map(|stamp| stamp.clamp(first, last)) {
             if let Some(piece) = self.piece(stamp).filter(|piece| piece.gap_ns <= gap_ns) {
                 see(&piece.at(stamp));
@@ -212,7 +237,11 @@ impl Track {
         let start = self.stamps_ns.partition_point(|stamp| *stamp < from_ns);
         let end = self.stamps_ns.partition_point(|stamp| *stamp <= to_ns);
         (start..end).for_each(|index| see(self.at_turn(index)));
-        ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max)
+        let moved = joints.iter().filter_map(|joint| Some((*joint, ranges.get(*joint)?)));
+        moved.fold((0.0, 0), |most, (joint, (low, high))| match high - low > most.0 {
+            true => (high - low, joint),
+            false => most,
+        })
     }
 }
 

@@ -36,7 +36,7 @@ const FLOAT64: u8 = 8;
 /// Bytes of a field with an empty name.
 const SMALLEST_FIELD: usize = 13;
 /// Points of the largest cloud.
-const MOST_POINTS: usize = 100_000_000;
+const MOST_POINTS: usize = 1 << 25;
 
 impl<'a> CloudMessage<'a> {
     pub(crate) fn read(reader: &mut WireReader<'a>) -> Result<Self, WireProblem> {

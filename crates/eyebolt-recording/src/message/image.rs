@@ -24,8 +24,8 @@ pub(crate) fn is_depth_encoding(encoding: &str) -> bool {
     matches!(encoding, "16UC1" | "mono16" | "32FC1")
 }
 
-/// Largest picture, pixels.
-const MOST_PIXELS: usize = 100_000_000;
+/// Largest picture, pixels: twice that of any depth camera.
+const MOST_PIXELS: usize = 1 << 25;
 
 impl<'a> ImageMessage<'a> {
     pub(crate) fn read(reader: &mut WireReader<'a>) -> Result<Self, WireProblem> {

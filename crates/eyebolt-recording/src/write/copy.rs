@@ -30,7 +30,7 @@ pub(super) fn bag<W: Write + Seek>(
         let mut copy = || {
             tell(progress, done, total)?;
             extra.before(message, writer)?;
-            if bag.is_chosen(message.topic) || message.topic.name == "/tf_static" {
+            if bag.is_chosen(message.topic) {
                 one(bag, message, writer)?;
             }
             Ok(())

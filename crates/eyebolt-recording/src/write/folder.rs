@@ -34,7 +34,10 @@ pub fn write_folder(
     let mut found = Found::default();
     for (index, name) in names.iter().enumerate() {
         tell(progress, index, names.len())?;
-        let frame = recording.read_frame(index)?;
+        let frame = match recording.read_frame(index) {
+            Err(error) if recording.may_leave_out(&error) => continue,
+            read => read?,
+        };
         output.range(&frame)?;
         output.joint_row(&frame)?;
         if let Some(mask) = &frame.mask {
@@ -57,7 +60,7 @@ pub fn write_folder(
         output.file(URDF, urdf.as_bytes())?;
     }
     // Last: a folder without it is no recording.
-    output.file(MANIFEST, manifest(recording, robot, found, names.len()).as_bytes())?;
+    output.file(MANIFEST, manifest(recording, robot, found).as_bytes())?;
     tell(progress, names.len(), names.len())
 }
 
@@ -65,6 +68,7 @@ pub fn write_folder(
 #[derive(Clone, Copy, Debug, Default)]
 struct Found {
     clouds: bool,
+    frames: usize,
     masks: usize,
     colors: usize,
 }
@@ -72,6 +76,7 @@ struct Found {
 impl Found {
     fn add(&mut self, frame: &Frame, color: bool) {
         self.clouds = matches!(frame.range, Range::Cloud(_));
+        self.frames += 1;
         self.masks += usize::from(frame.mask.is_some());
         self.colors += usize::from(color);
     }
@@ -180,7 +185,7 @@ fn camera_info(camera: &PinholeCamera, frame_id: Option<&str>) -> String {
     text
 }
 
-fn manifest(recording: &Recording, robot: &WriteRobot, found: Found, frames: usize) -> String {
+fn manifest(recording: &Recording, robot: &WriteRobot, found: Found) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let mut text = String::new();
     let mut line = |line: String| {
@@ -198,10 +203,10 @@ fn manifest(recording: &Recording, robot: &WriteRobot, found: Found, frames: usi
     let unit = if recording.in_millimetres() && !found.clouds { "mm" } else { "m" };
     line(format!("depth_unit = {}", quoted(unit)));
     line(format!("joints = {}", quoted(JOINTS)));
-    if found.masks == frames {
+    if found.masks == found.frames {
         line("mask = \"mask_{}.png\"".to_owned());
     }
-    if found.colors == frames {
+    if found.colors == found.frames {
         line("color = \"color_{}.png\"".to_owned());
     }
     let known = recording.robot();

@@ -6,7 +6,8 @@ use eyebolt_recording::{BagOptions, BagRecording, Recording};
 #[test]
 fn a_damaged_frame_is_an_error_or_dropped() {
     let names = Bag::sample().open().frame_names().to_vec();
-    let damages: [(fn(&mut Vec<u8>), &str); 3] = [
+    type Damage = fn(&mut Vec<u8>);
+    let damages: [(Damage, &str); 3] = [
         (|data| data.truncate(data.len() - 5), "data: takes 48 bytes, but 43 are left"),
         (|data| data.truncate(9), "header.stamp.nanosec"),
         // Bytes of a row.

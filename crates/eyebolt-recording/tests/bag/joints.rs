@@ -30,11 +30,14 @@ fn several_publishers_tell_their_own_joints() {
 #[test]
 fn names_in_another_order_every_time_are_the_same_joints() {
     let mut bag = without_joints();
-    let ordered = Bag::sample();
+    let ordered = without_joints().with_joints(&["shoulder", "elbow", "wrist", "hand"]);
     for i in 0..600 {
         let at = position(10 * MS * i);
-        let mut joints = [("shoulder", at), ("elbow", -at)];
-        joints.rotate_left((i % 2) as usize);
+        let mut joints = [("shoulder", at), ("elbow", -at), ("wrist", 0.1), ("hand", 0.2)];
+        // All 24 orders, one after the other.
+        joints.rotate_left((i % 4) as usize);
+        joints[1..].rotate_left((i / 4 % 3) as usize);
+        joints[2..].rotate_left((i / 12 % 2) as usize);
         bag.joints(START_NS + 10 * MS * i, &joints);
     }
     let (bag, ordered) = (bag.open(), ordered.open());
@@ -64,7 +67,7 @@ fn stale_joints_are_not_used() {
     let gap = |time: i64| (START_NS + 2100 * MS..START_NS + 4000 * MS).contains(&time);
     bag.messages.retain(|m| m.topic != "/joint_states" || !gap(m.log_time_ns));
     let bag = bag.open();
-    let stale = |reason: &str| reason.starts_with("the nearest joint state is");
+    let stale = |reason: &str| reason.starts_with("the nearest state of shoulder is");
     let stale: Vec<_> = bag.reasons().into_iter().filter(|(_, reason)| stale(reason)).collect();
     // From the first that is further than 25 ms from both ends of the gap.
     assert_eq!(stale.first().unwrap().0, 22);

@@ -14,6 +14,9 @@ const LATE_S: f64 = 0.15;
 /// Stamps nearer than this are as good as one clock's, seconds.
 const SAME_S: f64 = 0.05;
 
+/// How the advice begins where no robot is known.
+pub const NO_ROBOT: &str = "no robot is known";
+
 /// Sentences, the most important first.
 pub(super) fn advice(info: &Info) -> Vec<String> {
     let mut advice = Vec::new();
@@ -32,9 +35,7 @@ pub(super) fn advice(info: &Info) -> Vec<String> {
 
 fn robot(info: &Info, advice: &mut Vec<String>) {
     let Some(robot) = &info.robot else {
-        advice.push(
-            "no robot is known: give --robot arm.urdf, or record /robot_description".to_owned(),
-        );
+        advice.push(format!("{NO_ROBOT}: give --robot arm.urdf, or record /robot_description"));
         return;
     };
     if !robot.missing_joints.is_empty() {

@@ -15,7 +15,11 @@ pub(super) fn depth_statistics(recording: &Recording) -> Result<Depth, Recording
     let mut size = None;
     let (mut seen, mut pixels) = (Vec::new(), 0_usize);
     for i in 0..looked_at {
-        let frame = recording.read_frame(i * count.saturating_sub(1) / (looked_at - 1).max(1))?;
+        let index = i * count.saturating_sub(1) / (looked_at - 1).max(1);
+        let frame = match recording.read_frame(index) {
+            Err(error) if recording.may_leave_out(&error) => continue,
+            read => read?,
+        };
         size = frame.range.size();
         let depth: Vec<f32> = match &frame.range {
             Range::Depth(image) => image.depth_m().to_vec(),

@@ -1,7 +1,7 @@
 //! Which files of a folder are a bag.
 
 use super::mcap_writer::{mcap, small};
-use super::{assert_says, file, fixture, open, scan_whole, strict};
+use super::{assert_says, file, fixture, open, scan, scan_whole, strict};
 use crate::bag::{BagKind, is_bag};
 use std::fs;
 use std::path::Path;
@@ -92,6 +92,7 @@ fn compressed_files_are_called_by_their_own_names() {
     fs::write(&cut, zip(&mcap(&small(), false))).unwrap();
     let named = format!("{}: record at byte", cut.display());
     assert_says(strict(&open(&cut).unwrap()), &[&named]);
+    assert!(scan(&open(&cut).unwrap()).1[0].contains(&named));
     fs::write(&cut, zip(b"something else")).unwrap();
     assert_says(open(&cut), &["cut.mcap.zstd: kind of file"]);
     let bytes = zip(&whole);

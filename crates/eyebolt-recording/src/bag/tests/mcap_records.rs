@@ -119,7 +119,11 @@ fn publishers_of_a_topic_are_one_topic() {
     let (_folder, path) = file("two.mcap", &mcap(&records, true));
     let bag = open(&path).unwrap();
     let mut numbers = Vec::new();
-    bag.scan(&mut |_, m| Ok(numbers.push(m.topic_index)), &mut Err).unwrap();
+    let mut note = |_, message: &crate::bag::Message<'_>| {
+        numbers.push(message.topic_index);
+        Ok(())
+    };
+    bag.scan(&mut note, &mut Err).unwrap();
     assert_eq!(numbers, [0, 0]);
     // Times beyond 2262 are as late as can be.
     let late = [small().to_vec(), vec![message(1, u64::MAX, b"late")]].concat();

@@ -42,7 +42,7 @@ impl PictureKind {
             // Infrared pictures are grey of 16 bits too.
             Self::Image { encoding, .. } if encoding == "mono16" => Some(3),
             Self::Image { encoding, .. } if is_depth_encoding(encoding) => Some(0),
-            Self::CompressedDepth => Some(1),
+            Self::CompressedDepth => Some(0),
             Self::Cloud { .. } => Some(2),
             _ => None,
         }
@@ -53,6 +53,8 @@ impl PictureKind {
 #[derive(Clone, Debug)]
 pub(in super::super) struct FrameEntry {
     pub(in super::super) stamp_ns: i64,
+    /// Nobody set its stamp; the time of recording, which is of another clock, stands in.
+    pub(in super::super) stands_in: bool,
     pub(in super::super) locator: Locator,
     /// Why it is of no use, if the scan could see that.
     pub(in super::super) unfit: Option<Unfit>,
@@ -89,7 +91,7 @@ impl Pictures {
         &mut self,
         message_type: &str,
         reader: Result<WireReader<'_>, WireProblem>,
-        stamp_ns: i64,
+        (stamp_ns, stands_in): (i64, bool),
         locator: Locator,
     ) -> Result<(), WireProblem> {
         if self.frames.len() >= MOST_FRAMES {
@@ -103,7 +105,7 @@ impl Pictures {
             Err(problem) => Some(Unfit::Unreadable(Box::new(problem.clone()))),
         };
         let change = std::mem::replace(&mut self.change, f32::NAN);
-        self.frames.push(FrameEntry { stamp_ns, locator, unfit, change });
+        self.frames.push(FrameEntry { stamp_ns, stands_in, locator, unfit, change });
         read.map(drop)
     }
 

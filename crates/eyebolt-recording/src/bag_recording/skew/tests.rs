@@ -47,6 +47,7 @@ impl Session {
                     stamp_ns: time - offset_ns,
                     locator: Locator::default(),
                     unfit: None,
+                    stands_in: false,
                     change: 2.0 * moved as f32 + jitter,
                 }
             })

@@ -33,9 +33,9 @@ fn a_gap_is_known_and_stands_alone() {
 #[test]
 fn what_happens_in_a_gap_is_no_motion() {
     let track = track(&[(0, 0.0), (1000 * MS, 1.0), (2000 * MS, 0.0)]);
-    assert_eq!(track.motion(900 * MS, 1100 * MS, 200 * MS), 0.0);
-    assert!((track.motion(900 * MS, 2000 * MS, 200 * MS) - 1.0).abs() < 1e-12);
-    assert!((track.motion(900 * MS, 1100 * MS, 1000 * MS) - 0.1).abs() < 1e-12);
+    assert_eq!(track.motion(&[0], 900 * MS, 1100 * MS, 200 * MS).0, 0.0);
+    assert!((track.motion(&[0], 900 * MS, 2000 * MS, 200 * MS).0 - 1.0).abs() < 1e-12);
+    assert!((track.motion(&[0], 900 * MS, 1100 * MS, 1000 * MS).0 - 0.1).abs() < 1e-12);
 }
 
 #[test]
@@ -78,7 +78,7 @@ proptest! {
         let (a, b) = (a.min(b), a.max(b));
         let seen = samples[a..=b].iter().map(|(_, position)| *position);
         let (low, high) = seen.fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p), h.max(p)));
-        let motion = track(&samples).motion(samples[a].0, samples[b].0, 200 * MS);
+        let motion = track(&samples).motion(&[0], samples[a].0, samples[b].0, 200 * MS).0;
         prop_assert!((motion - (high - low)).abs() <= 4.0 * TOLERANCE);
     }
 
