@@ -1,6 +1,6 @@
 //! Where the intrinsics come from.
 
-use super::sample::{Bag, CAMERA_INFO, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_NS};
+use super::sample::{Bag, CAMERA_INFO, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, MS, SIZE, START_NS};
 use super::writer;
 
 fn info(bag: &mut Bag, topic: &str, frame: &str, size: (u32, u32), focal: f64) {
@@ -53,6 +53,19 @@ fn rectified_pictures_have_the_intrinsics_of_the_projection() {
     }
     info(&mut bag, INFO_TOPIC, FRAME, SIZE, 8.0);
     assert_eq!(focal(&bag), 4.0);
+    // A word of the picture's own name tells, not part of one, and not where it lies.
+    for name in ["/director/depth/image_raw", "/rect/depth/image", "/camera/depth/image_unrect"] {
+        let mut other = bag.clone();
+        let folder = name.rsplit_once('/').unwrap().0;
+        for message in &mut other.messages {
+            match message.message_type {
+                IMAGE => message.topic = name.to_owned(),
+                CAMERA_INFO => message.topic = format!("{folder}/camera_info"),
+                _ => {}
+            }
+        }
+        assert_eq!(focal(&other), 8.0, "{name}");
+    }
 }
 
 #[test]
@@ -64,6 +77,16 @@ fn a_file_stands_in() {
     let options = eyebolt_recording::BagOptions { camera_info: Some(file), ..Default::default() };
     let bag = eyebolt_recording::BagRecording::open(&path, &options).unwrap();
     assert_eq!(bag.camera().unwrap().fx(), 6.0);
+    // What the file says of a rectified picture counts for one as it does from a topic.
+    let file = options.camera_info.as_ref().unwrap();
+    let p = "p: [7.0, 0.0, 2.0, 0.0, 0.0, 7.0, 1.5, 0.0, 0.0, 0.0, 1.0, 0.0]\n";
+    std::fs::write(file, format!("{text}{p}")).unwrap();
+    let mut rectified = without_info();
+    for message in rectified.on(DEPTH_TOPIC) {
+        message.topic = "/camera/depth/image_rect".to_owned();
+    }
+    rectified.options.camera_info = Some(file.clone());
+    assert_eq!(rectified.open().camera().unwrap().fx(), 7.0);
     without_info().assert_says(&["no topic has the intrinsics", "--camera-info"]);
 }
 

@@ -1,6 +1,9 @@
 //! Time stamps that lie.
 
-use super::sample::{Bag, DEPTH_TOPIC, INFO_TOPIC, MS, Opened, START_NS, position};
+use super::sample::{
+    Bag, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, MS, Opened, PIXELS, SIZE, START_NS, position,
+};
+use super::writer;
 
 const JOINTS: &str = "/joint_states";
 
@@ -165,4 +168,29 @@ fn frames_that_are_late_by_another_clock_are_not_of_motion() {
         let joints = read.read_joints(index).unwrap();
         assert!((joints.get("shoulder").unwrap() - position(taken)).abs() < 1e-9, "frame {index}");
     }
+}
+
+#[test]
+fn motion_in_the_pixels_tells_a_small_offset() {
+    let offset_ms = 230;
+    let mut bag = Bag::default().with_joints(&["shoulder", "elbow"]).with_info(INFO_TOPIC);
+    for i in 0..180 {
+        let taken = 33 * MS * i;
+        // All pixels change when the arm moves, as they hardly do in life.
+        let depth = [(1.0 + 4.0 * position(taken)) as f32; PIXELS];
+        let stamp = START_NS + taken - offset_ms * MS;
+        let data = writer::depth(stamp, FRAME, SIZE, &depth);
+        bag.add(DEPTH_TOPIC, IMAGE, START_NS + taken + 20 * MS, data);
+    }
+    let read = bag.open();
+    let offset = read.clock_offset().unwrap();
+    assert!(offset.seen && offset.applied, "{offset:?}");
+    assert!((offset.seconds - 1e-3 * offset_ms as f64).abs() < 0.025, "{offset:?}");
+    // Joints are those of the moment, not of the stamp, and no frame of motion is left.
+    for index in 0..read.frame_names().len() {
+        let taken = read.stamp_ns(index).unwrap() - START_NS + offset_ms * MS;
+        let joints = read.read_joints(index).unwrap();
+        assert!((joints.get("shoulder").unwrap() - position(taken)).abs() < 1e-3, "frame {index}");
+    }
+    assert!(read.frame_names().len() > 60);
 }

@@ -139,3 +139,26 @@ fn messages_without_positions_tell_nothing() {
     twice.joints(START_NS, &[("shoulder", 0.0), ("shoulder", 1.0)]);
     twice.assert_says(&["/joint_states: name: shoulder stands there twice"]);
 }
+
+#[test]
+fn joints_that_are_told_on_change_are_held() {
+    let mut bag = Bag::sample();
+    for (time, at) in [(0, 0.0), (2500, 0.04), (5900, 0.0)] {
+        bag.joints(START_NS + time * MS, &[("finger", at)]);
+    }
+    let bag = bag.open();
+    assert_eq!(bag.frame_names(), Bag::sample().open().frame_names());
+    for index in 0..bag.frame_names().len() {
+        let told = if bag.stamp_ns(index).unwrap() < START_NS + 2500 * MS { 0.0 } else { 0.04 };
+        assert_eq!(bag.read_joints(index).unwrap().get("finger"), Some(told), "frame {index}");
+    }
+}
+
+#[test]
+fn the_joint_that_moves_is_named() {
+    let mut bag = Bag::sample();
+    for i in 0..600 {
+        bag.joints(START_NS + 10 * MS * i, &[("axis", 0.01 * i as f64)]);
+    }
+    bag.assert_says(&["the arm moved: axis by", "mm if it slides"]);
+}

@@ -122,3 +122,50 @@ fn colours_must_be_of_the_camera() {
     bag.options.color_topic = Some("/color".to_owned());
     assert_says(bag.open().read_color(0), &["/color", "the picture is 8 x 6, the camera 4 x 3"]);
 }
+
+#[test]
+fn of_several_masks_one_is_to_be_named() {
+    let mut bag = masks("mono8", SIZE, &[255; PIXELS]);
+    bag.add(
+        "/other_mask",
+        IMAGE,
+        START_NS,
+        writer::image(START_NS, FRAME, "mono8", SIZE, &[1; 12]),
+    );
+    bag.assert_says(&["--mask-topic", "/arm_mask, /other_mask"]);
+    bag.options.mask_topic = Some("/arm_mask".to_owned());
+    assert!(bag.open().has_masks());
+}
+
+#[test]
+fn masks_of_compressed_depth_are_found_by_the_size_of_the_camera() {
+    let mut bag = masks("mono8", SIZE, &[255; PIXELS]);
+    for message in bag.on(DEPTH_TOPIC) {
+        message.message_type = "sensor_msgs/CompressedImage";
+        let format = "16UC1; compressedDepth png";
+        message.data = writer::compressed(message.log_time_ns, FRAME, format, &[0; 12]);
+    }
+    assert!(bag.open().has_masks());
+}
+
+#[test]
+fn a_damaged_colour_costs_a_picture_and_no_more() {
+    let mut bag = Bag::sample();
+    let data = writer::image(START_NS, FRAME, "rgb8", SIZE, &[9; 36]);
+    bag.add("/color", IMAGE, START_NS + 5 * MS, data.clone());
+    bag.add("/color", IMAGE, START_NS + 105 * MS, data[..40].to_vec());
+    let read = bag.open();
+    assert_eq!(read.role("color").as_deref(), Some("/color"));
+    assert!(read.read_color(0).unwrap().is_some() && read.read_color(1).unwrap().is_none());
+}
+
+#[test]
+fn what_is_no_depth_is_not_taken_for_it() {
+    let mut bag = Bag::sample();
+    for message in bag.clone().on(DEPTH_TOPIC) {
+        let mut other = message.clone();
+        other.topic = "/camera/confidence/confidence_map".to_owned();
+        bag.messages.push(other);
+    }
+    assert_eq!(bag.open().role("depth").as_deref(), Some(DEPTH_TOPIC));
+}

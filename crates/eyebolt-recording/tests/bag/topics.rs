@@ -111,3 +111,14 @@ fn topics_in_other_languages_do_no_harm() {
         bag.problems("/odd")
     );
 }
+
+#[test]
+fn both_parents_of_a_frame_are_told() {
+    let mut bag = Bag::sample();
+    for (time, parent) in [(0, "camera_link"), (1, "world"), (2, "camera_link")] {
+        let data = writer::static_transform(parent, "camera_optical");
+        bag.add("/robot1/tf_static", "tf2_msgs/TFMessage", START_NS + time, data);
+    }
+    let parents: Vec<_> = bag.open().static_transforms().into_iter().map(|t| t.parent).collect();
+    assert_eq!(parents, ["camera_link", "world"]);
+}
