@@ -10,7 +10,7 @@ use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::progress::{Progress, Step};
-use eyebolt::record::RecordOptions;
+use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::overlay;
 use eyebolt::session::ImageSource;
 use eyebolt_recording::Recording;
@@ -83,7 +83,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         limits: limits(arguments),
         seed: arguments.seed,
     };
-    let outcome = pipeline::run(&request, &bar)?;
+    let outcome = pipeline::run(&request, &bar)
+        .map_err(|error| named(error, &arguments.recording.recording))?;
     bar.begin(Step::Report);
     let pictures = match &arguments.save_overlay {
         Some(folder) => save_overlays(folder, &recording, &outcome, arguments.force),
@@ -98,6 +99,20 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     output::say(&summary::text(&answer, &path, pictures.as_deref().unwrap_or_default()));
     pictures?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
+}
+
+/// The error, with the recording where that is what does not fit and the error names no file.
+fn named(error: RecordError, recording: &Path) -> anyhow::Error {
+    let in_frame = matches!(
+        error,
+        RecordError::Kinematics { .. }
+            | RecordError::MaskSize { .. }
+            | RecordError::Projection { .. }
+    );
+    match in_frame {
+        true => anyhow::Error::new(error).context(recording.display().to_string()),
+        false => error.into(),
+    }
 }
 
 fn limits(arguments: &Arguments) -> Limits {

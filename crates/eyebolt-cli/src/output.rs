@@ -15,9 +15,10 @@ pub fn say(text: &str) {
 pub fn deliver(bytes: &[u8]) -> Result<()> {
     let mut out = std::io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(anyhow!("standard output: cannot write: {}", error.kind()))
-        }
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(anyhow!(
+            "standard output: cannot write: {}. Make room where it leads",
+            error.kind()
+        )),
         _ => Ok(()),
     }
 }
@@ -96,6 +97,15 @@ pub fn refuse_existing(path: &Path, force: bool) -> Result<()> {
     Ok(())
 }
 
+/// The kind only: the text names a temporary file that nobody knows.
+fn cannot_write(path: &Path, error: &std::io::Error) -> anyhow::Error {
+    anyhow!(
+        "{}: cannot write: {}. Make room there, or name another place",
+        path.display(),
+        error.kind()
+    )
+}
+
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -112,8 +122,7 @@ pub fn write_through(
     fill: impl FnOnce(&mut File) -> Result<()>,
 ) -> Result<()> {
     refuse_existing(path, force)?;
-    let failed =
-        |error: std::io::Error| anyhow!("{}: cannot write: {}", path.display(), error.kind());
+    let failed = |error: std::io::Error| cannot_write(path, &error);
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).map_err(failed)?;
     let mut file = beside(folder).map_err(failed)?;
@@ -133,8 +142,7 @@ pub fn write_folder_whole(
     fill: impl FnOnce(&Path) -> Result<()>,
 ) -> Result<()> {
     refuse_existing(path, force)?;
-    let failed =
-        |error: std::io::Error| anyhow!("{}: cannot write: {}", path.display(), error.kind());
+    let failed = |error: std::io::Error| cannot_write(path, &error);
     let above = folder_of(path);
     std::fs::create_dir_all(above).map_err(failed)?;
     let mut builder = tempfile::Builder::new();

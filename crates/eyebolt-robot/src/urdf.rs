@@ -257,14 +257,28 @@ fn kind(element: &Element<'_, '_>) -> Result<JointKind, RobotError> {
     })
 }
 
+/// An axis may be so much longer or shorter than 1: what few digits make of a unit vector.
+const AXIS_ROUNDING: f64 = 1e-3;
+
+/// The unit vector in `<axis>`. Whether other programs make one of a longer vector, or move the
+/// joint by its length, depends on the program, so that such a robot would be two.
 fn axis(element: &Element<'_, '_>, kind: JointKind) -> Result<Unit<Vector3<f64>>, RobotError> {
     let Some(axis) = element.child("axis")? else { return Ok(Vector3::x_axis()) };
     let xyz = Vector3::from(axis.numbers("xyz")?.unwrap_or([1.0, 0.0, 0.0]));
-    match Unit::try_new(xyz, 1e-9) {
-        Some(unit) => Ok(unit),
-        None if kind == JointKind::Fixed => Ok(Vector3::x_axis()),
-        None => Err(axis.error("xyz", "zero; write the direction that the joint moves about")),
+    if kind == JointKind::Fixed {
+        return Ok(Vector3::x_axis());
     }
+    let length = xyz.norm();
+    let Some(unit) = Unit::try_new(xyz, 1e-9) else {
+        return Err(axis.error("xyz", "zero; write the direction that the joint moves about"));
+    };
+    if (length - 1.0).abs() > AXIS_ROUNDING {
+        let [x, y, z] = unit.into_inner().into();
+        let problem =
+            format!("not of length 1 but {length:.4}; write xyz=\"{x:.6} {y:.6} {z:.6}\"");
+        return Err(axis.error("xyz", problem));
+    }
+    Ok(unit)
 }
 
 fn limits(element: &Element<'_, '_>, kind: JointKind) -> Result<Option<JointLimits>, RobotError> {

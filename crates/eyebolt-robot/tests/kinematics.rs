@@ -4,7 +4,7 @@
 mod common;
 
 use eyebolt_geometry::{Transform, frame};
-use eyebolt_robot::{JointPositions, KinematicsError, Robot};
+use eyebolt_robot::{JointKind, JointPositions, KinematicsError, Robot};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -224,6 +224,7 @@ fn positions_are_checked() {
     let outside = arm.joints_outside_limits(&positions(&pairs));
     assert_eq!(outside.len(), 1);
     assert_eq!((outside[0].joint.as_str(), outside[0].upper), ("shoulder", 2.5));
+    assert_eq!((outside[0].kind, outside[0].position), (JointKind::Revolute, 45.0));
     pairs[3].1 = f64::INFINITY;
     let error = arm.link_poses(&positions(&pairs)).unwrap_err();
     assert!(matches!(error, KinematicsError::NotFinite { joint, .. } if joint == "wrist"));

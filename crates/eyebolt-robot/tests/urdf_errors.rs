@@ -68,6 +68,8 @@ fn joints_must_be_whole() {
     let revolute = r#"type="revolute""#;
     refused(&with(revolute, r#"<axis xyz="0 0 0"/>"#), &["joint `j`, <axis>, xyz: zero"]);
     refused(&with(revolute, r#"<axis xyz="0 nan 0"/>"#), &["`0 nan 0`", "3 finite numbers"]);
+    let long = with(r#"type="prismatic""#, r#"<axis xyz="1 1 0"/>"#);
+    refused(&long, &["joint `j`, <axis>, xyz", "1.4142", r#"xyz="0.707107 0.707107 0.000000""#]);
     refused(&with(revolute, r#"<origin xyz="0 x 0 1"/>"#), &["<origin>, xyz", "`0 x 0 1`"]);
     refused(&with(revolute, r#"<origin/><origin/>"#), &["a second <origin>"]);
     refused(&with(revolute, r#"<limit lower="2" upper="1"/>"#), &["lower", "swap"]);
@@ -76,6 +78,8 @@ fn joints_must_be_whole() {
     refused(&with(revolute, r#"<mimic joint="k"/>"#), &["no joint `k`"]);
     refused(&with(revolute, r#"<mimic joint="j" offset="inf"/>"#), &["<mimic>, offset"]);
     assert!(common::parse(&format!("<robot>{}</robot>", with(revolute, ""))).is_ok());
+    let rounded = with(revolute, r#"<axis xyz="0.577 0.577 0.577"/>"#);
+    assert!(common::parse(&format!("<robot>{rounded}</robot>")).is_ok());
     let zero_but_fixed = with(r#"type="fixed""#, r#"<axis xyz="0 0 0"/>"#);
     assert!(common::parse(&format!("<robot>{zero_but_fixed}</robot>")).is_ok());
 }

@@ -97,7 +97,7 @@ pub fn calibrate(
     let candidates = pose::start(session, &masks, seed, CANDIDATES);
     progress.begin(Step::Refine);
     let Some(choice) = shortlist::choose(&mut work, &candidates) else {
-        let verdict = verdict::nothing_found(&outcomes, limits);
+        let verdict = verdict::nothing_found(&outcomes, &session.outside_limits, limits);
         return Calibration { configurations: outcomes, ..Calibration::without_pose(verdict) };
     };
     let (mut refinement, mut observed) = work.refine(&choice.camera_from_base);
@@ -114,6 +114,7 @@ pub fn calibrate(
     let evidence = verdict::Evidence {
         refinement: &refinement,
         outcomes: &outcomes,
+        outside_limits: &session.outside_limits,
         error: &error,
         rival,
         masks: session.has_masks(),

@@ -3,7 +3,7 @@
 mod advice;
 mod depth;
 
-use crate::record::{RecordError, group_frames};
+use crate::record::{OutsideLimits, RecordError, group_frames, outside_limits};
 use depth::depth_statistics;
 use eyebolt_recording::{DropReason, Recording, RecordingError, TopicSummary};
 use eyebolt_robot::{Arm, JointPositions};
@@ -125,21 +125,6 @@ pub struct RobotFit {
     pub unknown_joints: Vec<String>,
     /// Joints recorded outside their limits.
     pub outside_limits: Vec<OutsideLimits>,
-}
-
-/// A joint outside its limits, at its worst.
-#[derive(Clone, Debug, Serialize)]
-pub struct OutsideLimits {
-    /// Name of the joint.
-    pub joint: String,
-    /// Name of the frame.
-    pub frame: String,
-    /// Position there, radians or metres.
-    pub position: f64,
-    /// Least position allowed.
-    pub lower: f64,
-    /// Greatest position allowed.
-    pub upper: f64,
 }
 
 /// Frames listed one by one.
@@ -283,30 +268,16 @@ fn fit(recording: &Recording, arm: &Arm) -> Result<RobotFit, RecordingError> {
         missing_joints: Vec::new(),
         assumed_joints: Vec::new(),
         unknown_joints: Vec::new(),
-        outside_limits: Vec::new(),
+        outside_limits: outside_limits(recording, arm)?,
     };
-    let mut outside: BTreeMap<String, OutsideLimits> = BTreeMap::new();
-    for (index, frame) in recording.frame_names().iter().enumerate() {
+    for index in 0..recording.frame_names().len() {
         let joints = recording.read_joints(index)?;
         let lacking = |name: &&str| joints.get(name).is_none();
         add_new(&mut fit.missing_joints, arm.required_joints().into_iter().filter(lacking));
         add_new(&mut fit.assumed_joints, arm.other_joints().into_iter().filter(lacking));
         let unknown = arm.unknown_joints(&joints);
         add_new(&mut fit.unknown_joints, unknown.iter().map(String::as_str));
-        for found in arm.joints_outside_limits(&joints) {
-            let beyond = |position: f64| (found.lower - position).max(position - found.upper);
-            let worse = outside
-                .get(&found.joint)
-                .is_none_or(|o| beyond(o.position) < beyond(found.position));
-            if worse {
-                let eyebolt_robot::OutsideLimits { joint, position, lower, upper } = found;
-                let frame = frame.clone();
-                let entry = OutsideLimits { joint: joint.clone(), frame, position, lower, upper };
-                outside.insert(joint, entry);
-            }
-        }
     }
-    fit.outside_limits = outside.into_values().collect();
     Ok(fit)
 }
 

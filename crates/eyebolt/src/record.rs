@@ -2,7 +2,11 @@
 
 mod eye;
 mod group;
+mod limits;
 mod spread;
+
+pub use limits::OutsideLimits;
+pub(crate) use limits::outside_limits;
 
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{Base, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform};
@@ -138,6 +142,9 @@ pub fn open(
     let configurations = configurations.into_iter().collect::<Result<_, _>>()?;
     let rays = reader.rays;
     let eye::Eye { camera, optical_from_camera, source } = eye;
+    let mut outside_limits = outside_limits(recording, arm)?;
+    let of_the_arm = [arm.required_joints(), arm.other_joints()].concat();
+    outside_limits.retain(|outside| of_the_arm.contains(&outside.joint.as_str()));
     let assumed_joints = groups.first().map(|g| g.first.assumed_joints.clone()).unwrap_or_default();
     Ok(Session {
         camera,
@@ -147,6 +154,7 @@ pub fn open(
         arm: model,
         configurations,
         assumed_joints,
+        outside_limits,
         spare_configurations: groups.len() - chosen.len(),
     })
 }

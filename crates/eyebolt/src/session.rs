@@ -1,5 +1,6 @@
 //! What a calibration works on: arm configurations as one camera saw them.
 
+use crate::record::OutsideLimits;
 use eyebolt_geometry::{
     Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
 };
@@ -23,6 +24,8 @@ pub struct Session {
     pub configurations: Vec<Configuration>,
     /// Joints of the hand that the recording does not have, and that were put at their lower limit.
     pub assumed_joints: Vec<String>,
+    /// Joints of the arm that were recorded outside their limits, each where it is farthest out.
+    pub outside_limits: Vec<OutsideLimits>,
     /// How many more configurations the recording has, much like those that are used.
     pub spare_configurations: usize,
 }

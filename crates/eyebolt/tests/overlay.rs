@@ -60,6 +60,7 @@ fn session(width: u32, height: u32) -> Session {
         arm,
         configurations: vec![configuration],
         assumed_joints: Vec::new(),
+        outside_limits: Vec::new(),
         spare_configurations: 0,
     }
 }

@@ -1,7 +1,8 @@
 //! `eyebolt convert`: there and back, and what it will not overwrite.
 
+use crate::desk::{Desk, text};
 use crate::good::parsed;
-use crate::program::{Desk, RECORDING, calibrate, eyebolt, text};
+use crate::program::{RECORDING, calibrate, eyebolt};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

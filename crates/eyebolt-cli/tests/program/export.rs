@@ -1,7 +1,8 @@
 //! `eyebolt export`, on the calibration of the shared run.
 
+use crate::desk::{Desk, text};
 use crate::good::{GOOD, parsed};
-use crate::program::{Desk, Ended, eyebolt, text};
+use crate::program::{Ended, eyebolt};
 use eyebolt_recording::{StaticTransform, write_static_transforms};
 use nalgebra::Matrix4;
 use serde_json::{Value, json};

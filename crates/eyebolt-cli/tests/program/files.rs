@@ -1,6 +1,7 @@
 //! Files that are there, and folders that are not.
 
-use crate::program::{Desk, calibrate, text};
+use crate::desk::{Desk, text};
+use crate::program::calibrate;
 use std::fs;
 use std::io::Write;
 use std::path::Path;

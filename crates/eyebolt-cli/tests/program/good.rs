@@ -1,6 +1,7 @@
 //! A run that goes well, looked at by many tests.
 
-use crate::program::{Desk, Ended, text};
+use crate::desk::{Desk, text};
+use crate::program::Ended;
 use serde_json::Value;
 use std::fs;
 use std::sync::LazyLock;

@@ -1,6 +1,7 @@
 //! `eyebolt info`: what it finds in a recording, and what it advises.
 
-use crate::program::{Desk, RECORDING, eyebolt, text};
+use crate::desk::{Desk, text};
+use crate::program::{RECORDING, eyebolt};
 use crate::recording::write_depth;
 use crate::scene::{JOINTS, shot};
 use serde_json::Value;

@@ -2,6 +2,7 @@
 
 mod answer;
 mod convert;
+mod desk;
 mod export;
 mod files;
 mod good;

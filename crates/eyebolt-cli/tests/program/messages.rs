@@ -1,6 +1,7 @@
 //! What the program says to someone who made a mistake.
 
-use crate::program::{Desk, RECORDING, calibrate, eyebolt};
+use crate::desk::Desk;
+use crate::program::{RECORDING, calibrate, eyebolt};
 use crate::recording::{write, write_depth};
 use crate::scene::{JOINTS, shot};
 use eyebolt::calibrate::Limits;

@@ -1,7 +1,8 @@
 //! How runs end, and which files they leave.
 
+use crate::desk::{Desk, text};
 use crate::good::{GOOD, parsed};
-use crate::program::{Desk, Ended, text};
+use crate::program::Ended;
 use crate::scene::CAMERA;
 use serde_json::Value;
 use std::fs;

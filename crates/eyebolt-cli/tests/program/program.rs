@@ -1,12 +1,11 @@
 //! Runs of the program.
 
+use crate::desk::{Desk, fresh, text};
 use crate::recording::{write, write_depth};
 use crate::scene::shots;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
-use tempfile::TempDir;
 
 /// A recording that is trusted, shared by all tests.
 pub static RECORDING: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -28,14 +27,6 @@ const OTHER_URDF: &str = r#"<robot name="stranger">
     <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>"#;
-
-/// An empty folder of this name below the build folder: what lay there is gone.
-fn fresh(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
 
 /// What a run left behind.
 pub struct Ended {
@@ -78,46 +69,7 @@ pub fn calibrate(recording: &Path, output: &Path, more: &[&str]) -> Ended {
     eyebolt(&arguments)
 }
 
-pub fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
-
-/// A folder to write to.
-pub struct Desk {
-    path: PathBuf,
-    /// Removes the folder with the desk.
-    _own: Option<TempDir>,
-}
-
 impl Desk {
-    /// A folder of one's own.
-    pub fn new() -> Self {
-        let own = tempfile::tempdir().unwrap();
-        Self { path: own.path().to_owned(), _own: Some(own) }
-    }
-
-    /// A folder that is left behind, since nothing static is ever dropped.
-    pub fn shared(name: &str) -> Self {
-        Self { path: fresh(name), _own: None }
-    }
-
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    pub fn file(&self, name: &str) -> PathBuf {
-        self.path().join(name)
-    }
-
-    /// Names of what lies in it, sorted.
-    pub fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.path()).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-
     /// Runs `eyebolt calibrate` on the shared recording into `calibration.json` in this folder.
     pub fn calibrate(&self, more: &[&str]) -> Ended {
         calibrate(&RECORDING, &self.file("calibration.json"), more)

@@ -122,7 +122,7 @@ pub(super) fn unzip_file(
         written += bytes.len() as u64;
     }
     if written > limit {
-        let problem = format!("{stored} bytes decompress to more than {limit}");
+        let problem = format!("{stored} bytes decompress to more than {limit} bytes");
         let remedy = "This is no recording. If it is, decompress it with `zstd -d`";
         return Err(RecordingError::invalid(path, "zstd", problem, remedy));
     }

@@ -20,7 +20,8 @@ impl Folder {
     /// # Errors
     ///
     /// No such frame; a file that cannot be read, is damaged, or does not fit the camera, the
-    /// description or the range image; values that cannot be in the unit claimed; an empty mask.
+    /// description or the range image; values that cannot be in the unit claimed; a frame that saw
+    /// nothing; an empty mask.
     pub fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
         let name = self.name(index)?;
         let range = self.range(name)?;

@@ -7,7 +7,7 @@ pub use kinematics::{LinkPoses, PosesWithDefaults};
 
 use crate::error::RobotError;
 use crate::joint_positions::JointPositions;
-use crate::robot::{Joint, Robot};
+use crate::robot::{Joint, JointKind, Robot};
 use std::collections::BTreeSet;
 
 /// A robot with a base link and an end-effector link: the frames of a calibration.
@@ -29,6 +29,8 @@ pub struct Arm {
 pub struct OutsideLimits {
     /// Name of the joint.
     pub joint: String,
+    /// Whether it turns or slides.
+    pub kind: JointKind,
     /// Recorded position, radians or metres.
     pub position: f64,
     /// Least allowed position.
@@ -135,13 +137,15 @@ impl Arm {
         names.filter(|name| !known.contains(name)).map(str::to_owned).collect()
     }
 
-    /// Recorded positions outside the limits of their joints, anywhere in the robot.
+    /// Recorded positions outside the limits of their joints, anywhere in the robot. Limits that
+    /// leave a joint no room are ones that nobody filled in.
     pub fn joints_outside_limits(&self, positions: &JointPositions) -> Vec<OutsideLimits> {
         let outside = |joint: &Joint| {
             let (position, limits) = (positions.get(&joint.name)?, joint.limits?);
             let allowed = (limits.lower..=limits.upper).contains(&position);
-            (!allowed).then(|| OutsideLimits {
+            (!allowed && limits.lower < limits.upper).then(|| OutsideLimits {
                 joint: joint.name.clone(),
+                kind: joint.kind,
                 position,
                 lower: limits.lower,
                 upper: limits.upper,

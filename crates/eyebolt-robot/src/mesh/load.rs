@@ -106,7 +106,7 @@ impl Format {
     }
 }
 
-/// Format and whole content of a mesh file.
+/// Format and whole content of a mesh file; what is too much by its length or its header is not read.
 pub(crate) fn read_mesh_file(path: &Path) -> Result<(Format, Vec<u8>), MeshError> {
     let format = Format::of(path)?;
     let failed = |source| MeshError::Read { path: path.to_owned(), source };
@@ -119,7 +119,13 @@ pub(crate) fn read_mesh_file(path: &Path) -> Result<(Format, Vec<u8>), MeshError
     }
     let mut content = Vec::with_capacity(usize::try_from(bytes).unwrap_or(0));
     // The file may have grown, or be none whose length is known.
-    file.take(MAX_MESH_BYTES + 1).read_to_end(&mut content).map_err(failed)?;
+    let mut file = file.take(MAX_MESH_BYTES + 1);
+    if format == Format::Stl {
+        file.by_ref().take(stl::HEADER_AND_COUNT).read_to_end(&mut content).map_err(failed)?;
+        let checked = stl::check_header(&content, bytes);
+        checked.map_err(|fault| fault.named(path.display().to_string()))?;
+    }
+    file.read_to_end(&mut content).map_err(failed)?;
     if content.len() as u64 > MAX_MESH_BYTES {
         return Err(too_large(content.len() as u64));
     }

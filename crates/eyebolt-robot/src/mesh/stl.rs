@@ -10,7 +10,7 @@ const TRIANGLE: usize = 50;
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Fault> {
     // Binary files may start with the word "solid" too, so the length decides first.
     let announced = announced_triangles(bytes);
-    let expected = announced.map(|count| count as u64 * TRIANGLE as u64 + HEADER as u64 + 4);
+    let expected = announced.map(file_length);
     if expected != Some(bytes.len() as u64) && looks_like_text(bytes) {
         return read_text(bytes);
     }
@@ -31,6 +31,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Fault> {
             format!("{} bytes are fewer than the {} of an STL header", bytes.len(), HEADER + 4),
         )),
     }
+}
+
+/// Bytes that [`check_header`] looks at.
+pub(super) const HEADER_AND_COUNT: u64 = HEADER as u64 + 4;
+
+/// Refuses a binary file of `length` bytes by its first ones, before time and memory are spent on
+/// the rest.
+pub(super) fn check_header(first: &[u8], length: u64) -> Result<(), Fault> {
+    match announced_triangles(first) {
+        Some(count) if file_length(count) == length => check_count(count as usize),
+        // Text, or a file that `read` has something to say about.
+        _ => Ok(()),
+    }
+}
+
+/// Bytes of a binary file of `count` triangles.
+fn file_length(count: u32) -> u64 {
+    u64::from(count) * TRIANGLE as u64 + HEADER_AND_COUNT
 }
 
 fn announced_triangles(bytes: &[u8]) -> Option<u32> {

@@ -2,7 +2,9 @@
 
 use super::shortlist::total;
 use super::{Agreement, ConfigurationOutcome, Deviation, Dropped, ErrorEstimate};
+use crate::record::OutsideLimits;
 use eyebolt_registration::{Refinement, StopReason};
+use eyebolt_robot::JointKind;
 
 /// What an answer has to meet to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +22,10 @@ impl Default for Limits {
     }
 }
 
+/// Joints may be this far outside their limits: zeros and limits of real arms differ by as much from
+/// those of their description, and joints overshoot.
+const OUTSIDE_RAD: f64 = 0.1;
+const OUTSIDE_M: f64 = 0.01;
 /// Share of configurations that may have a misplaced link before the joints themselves are in
 /// doubt.
 const MISPLACED_SHARE: f64 = 0.25;
@@ -88,6 +94,9 @@ pub enum Reason {
         /// Last step, degrees.
         rotation_deg: f64,
     },
+    /// A joint was recorded where the robot description does not let it be.
+    #[error("{0}")]
+    OutsideLimits(OutsideLimits),
     /// Links are not where the joints put them in too many configurations.
     #[error(
         "in {misplaced} of {judged} configurations a link is not where the joints put it: check \
@@ -149,6 +158,7 @@ pub enum Reason {
 pub(crate) struct Evidence<'a> {
     pub refinement: &'a Refinement,
     pub outcomes: &'a [ConfigurationOutcome],
+    pub outside_limits: &'a [OutsideLimits],
     pub error: &'a ErrorEstimate,
     /// Whether another pose explains nearly as much.
     pub rival: bool,
@@ -156,16 +166,21 @@ pub(crate) struct Evidence<'a> {
 }
 
 /// The verdict where there is no pose at all.
-pub(crate) fn nothing_found(outcomes: &[ConfigurationOutcome], limits: &Limits) -> Verdict {
-    let few = few_configurations(outcomes, limits);
-    Verdict::Refused(few.into_iter().chain([Reason::NothingFound]).collect())
+pub(crate) fn nothing_found(
+    outcomes: &[ConfigurationOutcome],
+    outside_limits: &[OutsideLimits],
+    limits: &Limits,
+) -> Verdict {
+    let known = outside(outside_limits).into_iter().chain(few_configurations(outcomes, limits));
+    Verdict::Refused(known.chain([Reason::NothingFound]).collect())
 }
 
 /// Weighs the evidence.
 pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
-    let mut reasons: Vec<Reason> = misplaced(evidence.outcomes).into_iter().collect();
-    if reasons.is_empty() {
-        reasons.extend(few_configurations(evidence.outcomes, limits));
+    let mut reasons: Vec<Reason> = outside(evidence.outside_limits).into_iter().collect();
+    match misplaced(evidence.outcomes) {
+        Some(misplaced) => reasons.push(misplaced),
+        None => reasons.extend(few_configurations(evidence.outcomes, limits)),
     }
     if evidence.refinement.stop == StopReason::Underdetermined {
         reasons.push(Reason::Underdetermined);
@@ -191,6 +206,16 @@ fn few_configurations(outcomes: &[ConfigurationOutcome], limits: &Limits) -> Opt
     let (used, needed) =
         (outcomes.iter().filter(|o| o.dropped.is_none()).count(), limits.configurations);
     (used < needed).then_some(Reason::FewConfigurations { used, needed })
+}
+
+/// The joint that is farthest outside its limits, measured by what is allowed.
+fn outside(joints: &[OutsideLimits]) -> Option<Reason> {
+    let by_allowed = |joint: &OutsideLimits| match joint.kind {
+        JointKind::Prismatic => joint.beyond() / OUTSIDE_M,
+        _ => joint.beyond() / OUTSIDE_RAD,
+    };
+    let worst = joints.iter().max_by(|a, b| by_allowed(a).total_cmp(&by_allowed(b)))?;
+    (by_allowed(worst) > 1.0).then(|| Reason::OutsideLimits(worst.clone()))
 }
 
 fn misplaced(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {

@@ -45,22 +45,7 @@ fn robot(info: &Info, advice: &mut Vec<String>) {
             if robot.missing_joints.len() == 1 { "the arm is" } else { "the arm are" },
         ));
     }
-    for outside in &robot.outside_limits {
-        let degrees = outside.position.abs() > 2.0 * outside.upper.abs().max(outside.lower.abs());
-        advice.push(format!(
-            "joint {} is at {:.3} in frame {}, outside its limits {:.3} to {:.3}: {}",
-            outside.joint,
-            outside.position,
-            outside.frame,
-            outside.lower,
-            outside.upper,
-            if degrees {
-                "store radians if these are degrees"
-            } else {
-                "check the order of the joint names, and that the URDF is this robot's"
-            }
-        ));
-    }
+    advice.extend(robot.outside_limits.iter().map(ToString::to_string));
     if !robot.assumed_joints.is_empty() {
         advice.push(format!(
             "joint {} outside the arm's chain not recorded: taken at the lower limit",
