@@ -183,7 +183,10 @@ def serialize(store, kind: str, message, little_endian: bool = True) -> bytes:
     return bytes(store.serialize_cdr(message, kind, little_endian=little_endian))
 
 
-DEPTH = ["/depth/image", "/depth/camera_info", "/depth/mask", "/joint_states", "/robot_description", "/tf_static"]
+DEPTH = [
+    "/depth/image", "/depth/camera_info", "/depth/mask", "/color/image", "/joint_states",
+    "/robot_description", "/tf_static",
+]
 COMPRESSED = ["/depth/rvl/compressedDepth", "/depth/camera_info", "/joint_states"]
 CLOUD = ["/points", "/joint_states"]
 

@@ -99,8 +99,10 @@ pub(crate) trait BagFile: std::fmt::Debug + Send + Sync {
     fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError>;
 }
 
-/// No message, and no chunk of messages, is larger than this when decompressed, bytes.
-pub(crate) const LARGEST_CHUNK: u64 = 512 << 20;
+/// No message, and no chunk of messages, is larger than this when decompressed, bytes: a cloud of
+/// 4K with 32 bytes a point. A reader may have three of them in memory: a chunk, a message out of
+/// it, and what that becomes.
+pub(crate) const LARGEST_CHUNK: u64 = 256 << 20;
 
 /// The type's name without ROS 2's `msg`.
 pub(crate) fn ros_type(name: &str) -> String {

@@ -112,12 +112,13 @@ pub fn messages(bytes: &[u8]) {
         same_again(bytes, &encoding, |reader| Ok(JointStateMessage::read(reader)?.write()));
         same_again(bytes, &encoding, |reader| {
             let image = ImageMessage::read(reader)?;
+            let _ = (image.check(), image.has_depth());
             let _ = (image.depth_m(), image.rgb(), image.mask());
             Ok(image.write())
         });
         same_again(bytes, &encoding, |reader| {
             let cloud = CloudMessage::read(reader)?;
-            let _ = cloud.points();
+            let _ = (cloud.has_point(), cloud.points());
             Ok(cloud.write())
         });
         same_again(bytes, &encoding, |reader| {

@@ -35,8 +35,8 @@ const FLOAT32: u8 = 7;
 const FLOAT64: u8 = 8;
 /// Bytes of a field with an empty name.
 const SMALLEST_FIELD: usize = 13;
-/// Points of the largest cloud.
-const MOST_POINTS: usize = 1 << 25;
+/// Points of the largest cloud: twice what a camera with 4K gives.
+const MOST_POINTS: usize = 1 << 24;
 
 impl<'a> CloudMessage<'a> {
     pub(crate) fn read(reader: &mut WireReader<'a>) -> Result<Self, WireProblem> {

@@ -26,15 +26,15 @@ fn refused(bad: Vec<u8>, words: &str) {
 fn chunks_must_be_what_they_claim() {
     let records = small()[2].clone();
     let size = records.len() as u64;
-    refused(chunk("zstd", 10_000_000_000, &records), "claims 10000000000 bytes, more than 512 MiB");
+    refused(chunk("zstd", 10_000_000_000, &records), "claims 10000000000 bytes, more than 256 MiB");
     refused(chunk("", size + 1, &records), "decompresses to");
     refused(chunk("zstd", size, &records), "cannot be decompressed");
     refused(chunk("lz4", size, &records), "cannot be decompressed");
     refused(chunk("bz2", size, &records), "compression \"bz2\" is not known");
     refused(chunk("", 20, &records[..20]), "a record at byte 0 of the chunk is cut short");
     // Claims that no compression could keep are refused before memory is asked for.
-    refused(chunk("zstd", 500 << 20, &[0; 8]), "8 bytes of Zstandard are never 524288000");
-    refused(chunk("lz4", 500 << 20, &[0; 8]), "8 bytes of LZ4 are never 524288000");
+    refused(chunk("zstd", 250 << 20, &[0; 8]), "8 bytes of Zstandard are never 262144000");
+    refused(chunk("lz4", 250 << 20, &[0; 8]), "8 bytes of LZ4 are never 262144000");
     refused(record(op::CHUNK, &[0; 20]), "ends in the middle of a field");
     let mut longer = chunk("", size, &records);
     let at = longer.len() - records.len() - 8;
@@ -96,7 +96,7 @@ fn an_oversized_record_is_passed_over() {
         .unwrap();
     let (told, problems) = scan(&open(&path).unwrap());
     assert_eq!((told.len(), problems.len()), (1, 1), "{problems:?}");
-    assert!(problems[0].contains("629145600 bytes, more than 512 MiB"), "{problems:?}");
+    assert!(problems[0].contains("629145600 bytes, more than 256 MiB"), "{problems:?}");
 }
 
 #[test]

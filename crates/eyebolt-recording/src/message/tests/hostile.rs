@@ -1,6 +1,6 @@
 //! Cut and changed messages are errors or values, never a panic.
 
-use super::super::types;
+use super::super::{CloudMessage, Header, PointField, types};
 use super::read;
 use super::rosbags::fixtures;
 use crate::bag::Encoding;
@@ -82,4 +82,23 @@ fn what_is_claimed_is_not_allocated() {
         let problem = message.depth().unwrap_err().problem;
         assert_eq!(problem, format!("{width} x {height} pixels"));
     }
+}
+
+#[test]
+fn points_may_not_all_be_made_of_the_same_bytes() {
+    // x, y and z of every point are its only four bytes, so that points take three times as much as
+    // the message.
+    let field = |name| PointField { name, offset: 0, datatype: 7, count: 1 };
+    let cloud = CloudMessage {
+        header: Header { stamp_ns: 1, frame_id: "" },
+        height: 1,
+        width: (1 << 24) + 1,
+        fields: ["x", "y", "z"].map(field).to_vec(),
+        big_endian: false,
+        point_step: 4,
+        row_step: 4 << 24,
+        data: &[],
+        is_dense: true,
+    };
+    assert_eq!(cloud.points().unwrap_err().problem, "16777217 x 1 points");
 }
