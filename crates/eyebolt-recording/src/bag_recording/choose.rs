@@ -45,7 +45,7 @@ impl Chosen {
             wanted => choice.one("--color-topic", PICTURES, wanted, &|t| encoding(t).is_some())?,
         };
         let mask = match options.mask_topic.as_deref() {
-            None => choice.one("--mask-topic", PICTURES, None, &|t| is_mask(t) && beside(t))?,
+            None => choice.one("--mask-topic", MASKS, None, &|t| is_mask(t) && beside(t))?,
             wanted => choice.one("--mask-topic", PICTURES, wanted, &|t| encoding(t).is_some())?,
         };
         let description = choice.one(
@@ -76,6 +76,7 @@ fn encoding(topic: &TopicScan) -> Option<&str> {
 }
 
 const PICTURES: &str = "pictures (sensor_msgs/Image)";
+const MASKS: &str = "masks of the arm (sensor_msgs/Image)";
 
 fn is_mask(topic: &TopicScan) -> bool {
     topic.name.ends_with("mask") && encoding(topic).is_some_and(|e| GREY.contains(&e))
