@@ -1,8 +1,8 @@
 //! `eyebolt info`.
 
-use crate::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
+use crate::{Ending, causes};
 use anyhow::Result;
 use eyebolt::info::{Info, NO_ROBOT};
 use eyebolt_recording::{TopicSummary, list_topics};
@@ -39,7 +39,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     // A recording without a robot can be looked at all the same.
     let (arm, problem) = match arguments.robot.arm_if_known(&recording) {
         Ok(arm) => (arm, None),
-        Err(error) => (None, Some(format!("the robot description cannot be used: {error:#}"))),
+        Err(error) => {
+            (None, Some(format!("the robot description cannot be used: {}", causes(&error))))
+        }
     };
     let mut info = Info::new(&recording, arm.as_ref())?;
     if let Some(problem) = problem {

@@ -97,3 +97,17 @@ fn a_recording_without_a_robot_can_be_looked_at() {
 fn what_is_no_recording_is_an_error() {
     eyebolt(&["info", "no/such/place"]).assert_error(1, &["no/such/place", "cannot read"]);
 }
+
+#[test]
+fn a_robot_without_its_meshes_is_a_piece_of_advice() {
+    let desk = Desk::new();
+    write_depth(desk.path(), &[shot(JOINTS[0], 1)]);
+    let urdf = fs::read_to_string(desk.file("arm.urdf")).unwrap();
+    let mesh =
+        "<visual><geometry><mesh filename=\"package://none/a.stl\"/></geometry></visual></link>";
+    fs::write(desk.file("arm.urdf"), urdf.replacen("</link>", mesh, 1)).unwrap();
+    let info = json(desk.path(), &[]);
+    assert_eq!((&info["robot"], &info["frames"]["used"]), (&Value::Null, &1.into()));
+    assert!(advises(&info, &["robot description cannot be used", "a.stl", "--package-path"]));
+    assert!(!advises(&info, &["no robot is known"]));
+}
