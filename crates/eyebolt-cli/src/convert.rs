@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let kind = Kind::of(output)?;
     check(arguments, kind)?;
     let recording = arguments.recording.open()?;
-    check_sources(output, &recording)?;
+    recording.sources().iter().try_for_each(|source| refuse_source(output, source))?;
     let robot = arguments.robot.to_write(&recording)?;
     let bar = Bar::new()?;
     match kind {
@@ -79,6 +79,7 @@ impl Kind {
 fn check(arguments: &Arguments, kind: Kind) -> Result<()> {
     let output = &arguments.output;
     output::refuse_existing(output, arguments.force)?;
+    refuse_source(output, &arguments.recording.recording)?;
     match kind {
         Kind::Mcap if output.is_dir() => {
             bail!("{}: this is a folder. Name a file in it", output.display())
@@ -111,15 +112,13 @@ fn check_replaceable(folder: &Path) -> Result<()> {
 }
 
 /// What is read must not be written over, nor what it lies in.
-fn check_sources(output: &Path, recording: &Recording) -> Result<()> {
+fn refuse_source(output: &Path, source: &Path) -> Result<()> {
     let Ok(real) = output.canonicalize() else { return Ok(()) };
-    for source in recording.sources() {
-        if source.canonicalize().is_ok_and(|source| source.starts_with(&real)) {
-            bail!(
-                "{}: this is the recording itself, or has it in it. Name another place",
-                output.display()
-            );
-        }
+    if source.canonicalize().is_ok_and(|source| source.starts_with(&real)) {
+        bail!(
+            "{}: this is the recording itself, or has it in it. Name another place",
+            output.display()
+        );
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use crate::{Ending, causes};
 use anyhow::Result;
 use eyebolt::info::{Info, NO_ROBOT};
 use eyebolt_recording::{TopicSummary, list_topics};
+use eyebolt_robot::{ResolveError, RobotError};
 use std::fmt::{self, Write};
 
 /// Options of `eyebolt info`.
@@ -39,9 +40,11 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     // A recording without a robot can be looked at all the same.
     let (arm, problem) = match arguments.robot.arm_if_known(&recording) {
         Ok(arm) => (arm, None),
-        Err(error) => {
+        // Shapes are of no use here, and often elsewhere.
+        Err(error) if lacks_mesh(&error) => {
             (None, Some(format!("the robot description cannot be used: {}", causes(&error))))
         }
+        Err(error) => return Err(error),
     };
     let mut info = Info::new(&recording, arm.as_ref())?;
     if let Some(problem) = problem {
@@ -52,6 +55,11 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let text = if arguments.json { info.to_json() } else { text(&info) };
     output::say(text.trim_end());
     Ok(Ending::Done)
+}
+
+fn lacks_mesh(error: &anyhow::Error) -> bool {
+    let mesh = error.downcast_ref::<RobotError>();
+    matches!(mesh, Some(RobotError::Mesh { source: ResolveError::NotFound { .. }, .. }))
 }
 
 fn text(info: &Info) -> String {

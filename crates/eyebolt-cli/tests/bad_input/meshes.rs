@@ -1,7 +1,9 @@
 //! Meshes that are not there, not allowed, or too much.
 
+use crate::desk::text;
 use crate::folder::Recorded;
 use crate::outcome::{assert_not_calibrated, assert_unusable};
+use crate::run::eyebolt;
 use std::fs::File;
 use std::io::Write;
 use std::path::Path;
@@ -22,7 +24,12 @@ fn a_mesh_that_is_not_there() {
         ("file:///no/such/hand.stl", "correct the path"),
     ] {
         let recorded = with_mesh(url);
-        assert_unusable(recorded.path(), &["arm.urdf, link `hand`", url, "not found", remedy]);
+        let words = ["arm.urdf, link `hand`", url, "not found", remedy];
+        assert_not_calibrated(recorded.path(), &[], &words);
+        // Whoever looks at a recording needs no shapes, but is told.
+        let info = eyebolt(&["info", text(recorded.path())]);
+        assert_eq!((info.code, info.err.as_str()), (Some(0), ""));
+        assert!(words.iter().all(|word| info.out.contains(word)), "{}", info.out);
     }
 }
 

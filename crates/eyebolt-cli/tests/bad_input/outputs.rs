@@ -49,7 +49,7 @@ fn an_existing_folder_that_is_no_recording() {
     fs::create_dir(&output).unwrap();
     fs::write(output.join("letter.txt"), "precious").unwrap();
     let ended = eyebolt(&["convert", text(recorded.path()), text(&output), "--force"]);
-    ended.assert_error(&["out", "no recording", "Name another place"]);
+    ended.assert_error(&["out", "letter.txt", "Name another place"]);
     assert_eq!(fs::read(output.join("letter.txt")).unwrap(), b"precious");
 }
 

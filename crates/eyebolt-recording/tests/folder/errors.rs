@@ -202,15 +202,3 @@ fn joints_must_be_radians_of_every_name() {
     sample.write("joints_2.npy", &npy_f64(&[2], &[f64::NAN, 0.0]));
     assert_says(sample.frame(), &["joints_2.npy", "shoulder is NaN"]);
 }
-
-#[test]
-fn frames_must_have_seen_something() {
-    let sample = Sample::depth();
-    for nothing in [0.0, f32::NAN, -1.0] {
-        sample.write("depth_2.npy", &npy_f32(&[HEIGHT, WIDTH], &[nothing; PIXELS]));
-        assert_says(sample.frame(), &["depth_2.npy: depth", "no pixel", "Leave the frame out"]);
-    }
-    let sample = Sample::cloud();
-    sample.write("xyz_2.npy", &npy_f32(&[HEIGHT, WIDTH, 3], &[f32::NAN; 3 * PIXELS]));
-    assert_says(sample.frame(), &["xyz_2.npy: cloud", "no point", "Leave the frame out"]);
-}
