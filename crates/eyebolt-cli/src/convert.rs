@@ -3,6 +3,7 @@
 use crate::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
+use crate::progress::Waiting;
 use anyhow::{Context, Result, anyhow, bail};
 use eyebolt_recording::{Recording, WriteError, write_folder, write_mcap};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -35,7 +36,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let output = &arguments.output;
     let kind = Kind::of(output)?;
     check(arguments, kind)?;
+    let waiting = Waiting::new("reading the recording");
     let recording = arguments.recording.open()?;
+    drop(waiting);
     recording.sources().iter().try_for_each(|source| refuse_source(output, source))?;
     let robot = arguments.robot.to_write(&recording)?;
     let bar = Bar::new()?;

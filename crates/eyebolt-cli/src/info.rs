@@ -2,6 +2,7 @@
 
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
+use crate::progress::Waiting;
 use crate::{Ending, causes};
 use anyhow::Result;
 use eyebolt::info::{Info, NO_ROBOT};
@@ -23,6 +24,7 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
+    let waiting = Waiting::new("reading the recording");
     let recording = match arguments.recording.open() {
         Ok(recording) => recording,
         Err(error) => {
@@ -32,6 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
                 && !arguments.json
                 && !topics.is_empty()
             {
+                drop(waiting);
                 output::say(&table(&topics));
             }
             return Err(error);
@@ -52,6 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         info.advice.retain(|line| !line.starts_with(NO_ROBOT));
         info.advice.insert(0, problem);
     }
+    drop(waiting);
     let text = if arguments.json { info.to_json() } else { text(&info) };
     output::say(text.trim_end());
     Ok(Ending::Done)
