@@ -50,6 +50,21 @@ pub enum CloudFrame {
     Body,
 }
 
+impl CloudFrame {
+    /// Its name in files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Optical => "optical",
+            Self::Body => "body",
+        }
+    }
+
+    /// The frame of this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        [Self::Optical, Self::Body].into_iter().find(|frame| frame.name() == name)
+    }
+}
+
 /// What the range of a frame is stored as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RangeKind {

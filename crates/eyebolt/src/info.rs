@@ -5,7 +5,7 @@ mod depth;
 
 pub use advice::NO_ROBOT;
 
-use crate::record::{OutsideLimits, RecordError, group_frames, outside_limits};
+use crate::record::{OutsideLimits, RecordError, WorstOutside, group_frames};
 use depth::depth_statistics;
 use eyebolt_recording::{DropReason, Recording, RecordingError, TopicSummary};
 use eyebolt_robot::{Arm, JointPositions};
@@ -235,7 +235,7 @@ fn configurations(
         first_frame: frames.first().and_then(|f| names.get(*f)).cloned().unwrap_or_default(),
     };
     if let Some(arm) = arm {
-        match group_frames(recording, arm) {
+        match group_frames(recording, arm, |_, _| {}) {
             Ok(groups) => return Ok(groups.iter().map(|g| configuration(&g.frames)).collect()),
             Err(RecordError::Recording(error)) => return Err(error),
             Err(_) => {}
@@ -271,16 +271,19 @@ fn fit(recording: &Recording, arm: &Arm) -> Result<RobotFit, RecordingError> {
         missing_joints: Vec::new(),
         assumed_joints: Vec::new(),
         unknown_joints: Vec::new(),
-        outside_limits: outside_limits(recording, arm)?,
+        outside_limits: Vec::new(),
     };
-    for index in 0..recording.frame_names().len() {
+    let mut outside = WorstOutside::default();
+    for (index, frame) in recording.frame_names().iter().enumerate() {
         let joints = recording.read_joints(index)?;
+        outside.add(arm, frame, &joints);
         let lacking = |name: &&str| joints.get(name).is_none();
         add_new(&mut fit.missing_joints, arm.required_joints().into_iter().filter(lacking));
         add_new(&mut fit.assumed_joints, arm.other_joints().into_iter().filter(lacking));
         let unknown = arm.unknown_joints(&joints);
         add_new(&mut fit.unknown_joints, unknown.iter().map(String::as_str));
     }
+    fit.outside_limits = outside.into_vec();
     Ok(fit)
 }
 

@@ -6,7 +6,7 @@ mod limits;
 mod spread;
 
 pub use limits::OutsideLimits;
-pub(crate) use limits::outside_limits;
+pub(crate) use limits::WorstOutside;
 
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{Base, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform};
@@ -116,7 +116,8 @@ pub fn open(
     cache: &LinkCache,
     options: &RecordOptions,
 ) -> Result<Session, RecordError> {
-    let groups = group_frames(recording, arm)?;
+    let mut outside = WorstOutside::default();
+    let groups = group_frames(recording, arm, |frame, joints| outside.add(arm, frame, joints))?;
     // A link that some frame does not place takes no part in any.
     let placed = |link: &usize| groups.iter().all(|g| g.first.base_from_links[*link].is_some());
     let links = (0..arm.robot().links.len()).filter(|link| arm.is_below_base(*link));
@@ -147,7 +148,7 @@ pub fn open(
     let configurations = configurations.into_iter().collect::<Result<_, _>>()?;
     let rays = reader.rays;
     let eye::Eye { camera, optical_from_camera, source } = eye;
-    let mut outside_limits = outside_limits(recording, arm)?;
+    let mut outside_limits = outside.into_vec();
     let of_the_arm = [arm.required_joints(), arm.other_joints()].concat();
     outside_limits.retain(|outside| of_the_arm.contains(&outside.joint.as_str()));
     let assumed_joints = groups.first().map(|g| g.first.assumed_joints.clone()).unwrap_or_default();
@@ -188,11 +189,17 @@ pub(crate) struct Group {
     first: Placement,
 }
 
-/// Frames of each configuration, in order of appearance.
-pub(crate) fn group_frames(recording: &Recording, arm: &Arm) -> Result<Vec<Group>, RecordError> {
+/// Frames of each configuration, in order of appearance; `each` gets every frame's name and joints.
+pub(crate) fn group_frames(
+    recording: &Recording,
+    arm: &Arm,
+    mut each: impl FnMut(&str, &JointPositions),
+) -> Result<Vec<Group>, RecordError> {
     let mut groups: Vec<Group> = Vec::new();
     for (index, name) in recording.frame_names().iter().enumerate() {
-        let placement = place(arm, name, &recording.read_joints(index)?)?;
+        let joints = recording.read_joints(index)?;
+        each(name, &joints);
+        let placement = place(arm, name, &joints)?;
         let same = |group: &Group| {
             group::same_place(&group.first.base_from_links, &placement.base_from_links)
         };

@@ -1,7 +1,7 @@
 //! What is wrong with a topic that the recording needs is wrong with the recording.
 
 use super::BagRecording;
-use super::choose::Chosen;
+use super::choose::COLOR;
 use super::scan::Content;
 use crate::error::RecordingError;
 use crate::joints::{self, looks_like_degrees};
@@ -13,9 +13,7 @@ impl BagRecording {
     /// Messages, stamps and intrinsics of the topics that are needed.
     pub(super) fn check_topics(&self) -> Result<(), RecordingError> {
         // Colour is for people only, who do without some pictures.
-        let Chosen { range, camera_info, joints, description, color: _, mask } = self.chosen;
-        let needed = [camera_info, description, mask];
-        for number in [range, joints].into_iter().chain(needed.into_iter().flatten()) {
+        for (number, _) in self.chosen.roles().filter(|(_, role)| *role != COLOR) {
             let topic = self.topic(number);
             if let Some((log_time_ns, problem)) =
                 topic.first_problem.as_ref().filter(|_| !self.partial)
@@ -40,7 +38,7 @@ impl BagRecording {
                 return Err(self.invalid(&topic.name, problem, remedy));
             }
         }
-        let topic = camera_info.map(|number| self.topic(number));
+        let topic = self.chosen.camera_info.map(|number| self.topic(number));
         if let Some(topic) = topic
             && let Content::CameraInfo { changed_ns: Some(changed), .. } = &topic.content
         {

@@ -59,7 +59,24 @@ impl Chosen {
         )?;
         Ok(Self { range, camera_info, joints, description, color, mask })
     }
+
+    /// The topics, with what each is to the recording.
+    pub(super) fn roles(&self) -> impl Iterator<Item = (usize, &'static str)> + use<> {
+        let Self { range, camera_info, joints, description, color, mask } = *self;
+        let roles = [
+            (Some(range), "depth"),
+            (Some(joints), "joints"),
+            (camera_info, "intrinsics"),
+            (description, "robot"),
+            (color, COLOR),
+            (mask, "mask"),
+        ];
+        roles.into_iter().filter_map(|(number, role)| Some((number?, role)))
+    }
 }
+
+/// What pictures for people are to a recording.
+pub(super) const COLOR: &str = "color";
 
 /// Pictures of one byte a pixel.
 const GREY: [&str; 2] = ["mono8", "8UC1"];
@@ -106,6 +123,11 @@ fn rank(topic: &TopicScan) -> Option<u8> {
 
 /// Name of the compressed form of a topic, below it.
 const COMPRESSED: &str = "/compressedDepth";
+
+/// The topic of the picture that `topic` has, compressed or not.
+pub(super) fn picture_of(topic: &str) -> &str {
+    topic.strip_suffix(COMPRESSED).unwrap_or(topic)
+}
 
 /// Pictures of one number a pixel that are no depth.
 fn is_no_depth(name: &str) -> bool {

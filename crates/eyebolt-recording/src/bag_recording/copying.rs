@@ -1,11 +1,9 @@
 //! What a writer of recordings asks of a bag.
 
 use super::BagRecording;
-use super::choose::Chosen;
 use super::scan::{Content, PictureKind, is_static};
 use crate::bag::{Message, Topic};
 use crate::error::RecordingError;
-use crate::manifest::CloudFrame;
 use eyebolt_geometry::PinholeCamera;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -41,10 +39,7 @@ impl BagRecording {
         if is_static(&topic.name) {
             return true;
         }
-        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
-        let others = [camera_info, description, color, mask];
-        let mut all = [range, joints].into_iter().chain(others.into_iter().flatten());
-        all.any(|number| {
+        self.chosen.roles().any(|(number, _)| {
             let chosen = self.topic(number);
             chosen.name == topic.name && chosen.message_type == topic.message_type
         })
@@ -77,8 +72,7 @@ impl BagRecording {
     pub(crate) fn metadata(&self) -> BTreeMap<String, String> {
         let mut known = self.bag.metadata().cloned().unwrap_or_default();
         if let Some(frame) = self.cloud_frame {
-            let name = if frame == CloudFrame::Optical { "optical" } else { "body" };
-            known.insert("cloud_frame".to_owned(), name.to_owned());
+            known.insert("cloud_frame".to_owned(), frame.name().to_owned());
         }
         known
     }

@@ -1,6 +1,6 @@
 //! What is made of a scan when a bag is opened, and what keeps it from being a recording.
 
-use super::choose::Chosen;
+use super::choose::{Chosen, picture_of};
 use super::scan::{Content, FrameEntry, Scan, TopicScan};
 use super::stamps::{self, ClockOffset};
 use super::track::Track;
@@ -17,8 +17,7 @@ impl BagRecording {
     /// in their name, and clouds are made of them.
     fn is_rectified(&self) -> bool {
         let topic = self.range_topic();
-        let name = topic.name.strip_suffix("/compressedDepth").unwrap_or(&topic.name);
-        let mut words = name.rsplit('/').next().unwrap_or_default().split('_');
+        let mut words = picture_of(&topic.name).rsplit('/').next().unwrap_or_default().split('_');
         topic.message_type == types::CLOUD || words.any(|w| matches!(w, "rect" | "rectified"))
     }
 
@@ -98,11 +97,7 @@ impl BagRecording {
 
 /// The frame of clouds that a flag once said, where eyebolt wrote the bag.
 pub(super) fn known_cloud_frame(bag: &Bag) -> Option<CloudFrame> {
-    match bag.metadata()?.get("cloud_frame")?.as_str() {
-        "optical" => Some(CloudFrame::Optical),
-        "body" => Some(CloudFrame::Body),
-        _ => None,
-    }
+    CloudFrame::named(bag.metadata()?.get("cloud_frame")?)
 }
 
 /// How the clocks of depth and joints differ: by the motion, else by the times of recording.

@@ -1,6 +1,5 @@
 //! The topics of a bag, for people, and what else a bag tells without being a recording.
 
-use super::choose::Chosen;
 use super::scan::{Content, Scan, TopicScan};
 use super::track::Track;
 use super::{BagOptions, BagRecording};
@@ -44,16 +43,7 @@ impl BagRecording {
 
     /// What a topic is to the recording.
     fn role(&self, number: usize) -> Option<&'static str> {
-        let Chosen { range, camera_info, joints, description, color, mask } = self.chosen;
-        let roles = [
-            (Some(range), "depth"),
-            (camera_info, "intrinsics"),
-            (Some(joints), "joints"),
-            (description, "robot"),
-            (color, "color"),
-            (mask, "mask"),
-        ];
-        roles.into_iter().find(|(role, _)| *role == Some(number)).map(|(_, name)| name)
+        self.chosen.roles().find(|(chosen, _)| *chosen == number).map(|(_, role)| role)
     }
 }
 

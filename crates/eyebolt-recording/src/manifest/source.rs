@@ -56,11 +56,9 @@ impl Source<'_> {
         let field = "frames.cloud_frame";
         let two = "\"optical\" (x right, y down, z forward) or \"body\" (x forward, y left, z up)";
         match frames.cloud_frame.as_deref() {
-            Some("optical") => Ok(CloudFrame::Optical),
-            Some("body") => Ok(CloudFrame::Body),
-            Some(other) => {
-                Err(self.invalid(field, format!("found \"{other}\""), &format!("Write {two}")))
-            }
+            Some(name) => CloudFrame::named(name).ok_or_else(|| {
+                self.invalid(field, format!("found \"{name}\""), &format!("Write {two}"))
+            }),
             None => Err(self.missing(field, two)),
         }
     }

@@ -2,11 +2,13 @@
 
 use super::npy::npy;
 use super::{WriteError, WriteProgress, WriteRobot, png, tell};
+use crate::camera_info::camera_info_message;
 use crate::error::RecordingError;
 use crate::folder::MANIFEST;
 use crate::frame::{Frame, Range};
+use crate::message::{CameraInfoMessage, Header};
 use crate::recording::Recording;
-use eyebolt_geometry::{Distortion, PinholeCamera};
+use eyebolt_geometry::PinholeCamera;
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -165,23 +167,17 @@ fn row(names: &[String], joints: &JointPositions) -> io::Result<Vec<String>> {
 }
 
 fn camera_info(camera: &PinholeCamera, frame_id: Option<&str>) -> String {
-    let model = match camera.distortion() {
-        Distortion::None | Distortion::PlumbBob { .. } => "plumb_bob",
-        Distortion::RationalPolynomial { .. } => "rational_polynomial",
-    };
-    let count = if model == "plumb_bob" { 5 } else { 8 };
-    let d: Vec<f64> = camera.distortion().coefficients().into_iter().take(count).collect();
+    let header = Header { stamp_ns: 0, frame_id: frame_id.unwrap_or_default() };
+    let CameraInfoMessage { height, width, distortion_model, d, k, .. } =
+        camera_info_message(camera, header);
     let mut text = String::new();
     if let Some(frame_id) = frame_id {
         // JSON texts are YAML texts.
         let quoted = serde_json::Value::from(frame_id).to_string();
         let _ = writeln!(text, "header:\n  frame_id: {quoted}");
     }
-    let (width, height) = (camera.width(), camera.height());
-    let [fx, fy, cx, cy] = [camera.fx(), camera.fy(), camera.cx(), camera.cy()];
-    let _ = writeln!(text, "height: {height}\nwidth: {width}\ndistortion_model: {model}");
-    let _ = writeln!(text, "d: {d:?}");
-    let _ = writeln!(text, "k: [{fx:?}, 0.0, {cx:?}, 0.0, {fy:?}, {cy:?}, 0.0, 0.0, 1.0]");
+    let _ = writeln!(text, "height: {height}\nwidth: {width}");
+    let _ = writeln!(text, "distortion_model: {distortion_model}\nd: {d:?}\nk: {k:?}");
     text
 }
 

@@ -1,7 +1,6 @@
 //! Joints recorded where the robot description does not let them be.
 
-use eyebolt_recording::{Recording, RecordingError};
-use eyebolt_robot::{Arm, JointKind};
+use eyebolt_robot::{Arm, JointKind, JointPositions};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -50,22 +49,26 @@ impl fmt::Display for OutsideLimits {
     }
 }
 
-/// The joints of the robot that are outside their limits in some frame, each where it is farthest
-/// outside, sorted by name.
-pub(crate) fn outside_limits(
-    recording: &Recording,
-    arm: &Arm,
-) -> Result<Vec<OutsideLimits>, RecordingError> {
-    let mut worst: BTreeMap<String, OutsideLimits> = BTreeMap::new();
-    for (index, frame) in recording.frame_names().iter().enumerate() {
-        for found in arm.joints_outside_limits(&recording.read_joints(index)?) {
+/// The joints outside their limits in some frame, each where it is farthest outside.
+#[derive(Debug, Default)]
+pub(crate) struct WorstOutside(BTreeMap<String, OutsideLimits>);
+
+impl WorstOutside {
+    /// Adds the positions of the joints of `arm` in `frame`.
+    pub(crate) fn add(&mut self, arm: &Arm, frame: &str, joints: &JointPositions) {
+        for found in arm.joints_outside_limits(joints) {
             let eyebolt_robot::OutsideLimits { joint, kind, position, lower, upper } = found;
-            let found = OutsideLimits { joint, frame: frame.clone(), position, lower, upper, kind };
-            let known = worst.get(&found.joint);
+            let frame = frame.to_owned();
+            let found = OutsideLimits { joint, frame, position, lower, upper, kind };
+            let known = self.0.get(&found.joint);
             if known.is_none_or(|known| known.beyond() < found.beyond()) {
-                worst.insert(found.joint.clone(), found);
+                self.0.insert(found.joint.clone(), found);
             }
         }
     }
-    Ok(worst.into_values().collect())
+
+    /// All of them, sorted by name.
+    pub(crate) fn into_vec(self) -> Vec<OutsideLimits> {
+        self.0.into_values().collect()
+    }
 }
