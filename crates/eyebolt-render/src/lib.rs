@@ -4,7 +4,11 @@
 //! colour and sensor noise are none of its business.
 
 mod contour;
+mod random;
 mod raster;
+mod view;
 
 pub use contour::{ContourPoint, contour, outer_contour};
+pub use random::Random;
 pub use raster::{PosedMesh, Raster};
+pub use view::View;
