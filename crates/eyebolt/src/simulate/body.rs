@@ -1,0 +1,180 @@
+//! An arm that can be posed, drawn and kept from bumping into things.
+
+use super::SimulateError;
+use super::scene::TABLE_BELOW_M;
+use super::solids::Solid;
+use crate::record;
+use eyebolt_geometry::{Base, Camera, Link, Transform};
+use eyebolt_registration::{ArmModel, LinkCache, Posture};
+use eyebolt_render::{Random, SceneMesh};
+use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
+use nalgebra::Point3;
+
+/// An arm with the shapes of its links.
+pub(super) struct ArmBody<'a> {
+    pub(super) arm: &'a Arm,
+    /// Which links of the robot the model's are.
+    links: Vec<usize>,
+    pub(super) model: ArmModel,
+    /// The links' surfaces as they are, not simplified.
+    meshes: Vec<TriangleMesh>,
+    /// Of the model's links, those of the end-effector.
+    pub(super) is_end_effector: Vec<bool>,
+    /// Pairs of links that may touch: neighbours, and those that always do.
+    may_touch: Vec<(usize, usize)>,
+    /// Of the model's links, those that no joint moves.
+    rests: Vec<bool>,
+}
+
+/// Nothing comes nearer to the arm than this, metres.
+const CLEARANCE_M: f32 = 0.012;
+/// Configurations drawn to learn which links always touch, and how many of them say so.
+const TRIALS: u64 = 60;
+const MOSTLY: f64 = 0.5;
+
+impl<'a> ArmBody<'a> {
+    pub(super) fn new(arm: &'a Arm, cache: &LinkCache) -> Result<Self, SimulateError> {
+        let robot = arm.robot();
+        let below = (0..robot.links.len()).filter(|link| arm.is_below_base(*link));
+        let (links, model) = record::shapes(arm, below.collect(), cache)?;
+        let meshes = links.iter().map(|link| {
+            let link = &robot.links[*link];
+            let read = link_mesh(link, Prefer::Visual);
+            let failed = |source| record::RecordError::Mesh { link: link.name.clone(), source };
+            Ok(read.map_err(failed)?.unwrap_or_default())
+        });
+        let meshes = meshes.collect::<Result<_, record::RecordError>>()?;
+        let end_effector = arm.end_effector_links();
+        let rests = links.iter().map(|link| {
+            let mut at = *link;
+            while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
+                if robot.joints[joint].moves() {
+                    return false;
+                }
+                at = parent;
+            }
+            true
+        });
+        let mut body = Self {
+            arm,
+            is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
+            rests: rests.collect(),
+            may_touch: Vec::new(),
+            links,
+            model,
+            meshes,
+        };
+        body.may_touch = body.mostly_touching();
+        Ok(body)
+    }
+
+    pub(super) fn posture(&self, joints: &JointPositions) -> Option<Posture> {
+        let poses = self.arm.link_poses_with_defaults(joints).ok()?.base_from_links;
+        let poses: Option<Vec<_>> = self.links.iter().map(|link| poses[*link]).collect();
+        Some(Posture::new(&self.model, poses?))
+    }
+
+    /// The links' surfaces where `posture` has them.
+    pub(super) fn scene_meshes(&self, posture: &Posture) -> Vec<SceneMesh<'_>> {
+        let posed = self.meshes.iter().zip(posture.base_from_link());
+        posed.map(|(mesh, pose)| SceneMesh { mesh, base_from_mesh: *pose }).collect()
+    }
+
+    /// Joint positions anywhere within their limits, fingers included.
+    pub(super) fn any_joints(&self, random: &mut Random) -> JointPositions {
+        let robot = self.arm.robot();
+        let names = [self.arm.required_joints(), self.arm.other_joints()].concat();
+        let drawn = names.into_iter().map(|name| {
+            let limits = robot.joint_index(name).and_then(|index| robot.joints[index].limits);
+            let (low, high) = limits.map_or((-3.0, 3.0), |limits| (limits.lower, limits.upper));
+            // Clear of the stops, where arms refuse to go. Limits that nobody filled in leave no room.
+            let clear = 0.03 * (high - low);
+            (name.to_owned(), random.between(low + clear, high - clear))
+        });
+        drawn.collect()
+    }
+
+    /// Whether the arm in `posture` touches itself or the table, or comes near to the camera.
+    pub(super) fn bumps(&self, posture: &Posture, camera_in_base: &Point3<f64>) -> bool {
+        const CAMERA_CLEARANCE_M: f32 = 0.3;
+        let camera = camera_in_base.cast();
+        posture.nearest_within(&self.model, &camera, CAMERA_CLEARANCE_M).is_some()
+            || self.sinks(posture)
+            || self.pairs().any(|pair| !self.may_touch.contains(&pair) && self.touch(posture, pair))
+    }
+
+    /// Whether `solid` is clear of the arm in `posture`.
+    pub(super) fn is_clear_of(&self, posture: &Posture, solid: &Solid) -> bool {
+        let (low, high) = solid.bounds();
+        let margin = nalgebra::Vector3::repeat(2.0 * CLEARANCE_M);
+        let (low, high) = (low - margin, high + margin);
+        !self.surface(posture).any(|p| (0..3).all(|axis| (low[axis]..high[axis]).contains(&p[axis])))
+    }
+
+    /// Points all over the arm, base frame.
+    pub(super) fn surface<'b>(
+        &'b self,
+        posture: &'b Posture,
+    ) -> impl Iterator<Item = Point3<f32>> + 'b {
+        (0..self.links.len()).flat_map(move |link| self.link_surface(posture, link))
+    }
+
+    fn link_surface<'b>(
+        &'b self,
+        posture: &'b Posture,
+        link: usize,
+    ) -> impl Iterator<Item = Point3<f32>> + 'b {
+        let pose = posture.base_from_link()[link].isometry().cast::<f32>();
+        self.model.links()[link].model.surface.iter().map(move |s| pose * s.point)
+    }
+
+    fn sinks(&self, posture: &Posture) -> bool {
+        let table = -TABLE_BELOW_M as f32 + CLEARANCE_M;
+        (0..self.links.len())
+            .filter(|link| !self.rests[*link])
+            .any(|link| self.link_surface(posture, link).any(|point| point.z < table))
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+        let count = self.links.len();
+        (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
+    }
+
+    fn touch(&self, posture: &Posture, (a, b): (usize, usize)) -> bool {
+        let pose = |link: usize| &posture.base_from_link()[link];
+        let (in_a, in_b): (Transform<Link, Base>, Transform<Link, Base>) =
+            (pose(a).inverse(), pose(b).inverse());
+        let near = |of: usize, to: usize, to_from_of: Transform<Link, Link>| {
+            let (of, field) = (&self.model.links()[of].model, &self.model.links()[to].model.field);
+            let to_from_of = to_from_of.isometry().cast::<f32>();
+            of.surface.iter().any(|s| field.sample(&(to_from_of * s.point)).distance_m < CLEARANCE_M)
+        };
+        near(a, b, in_b * *pose(a)) || near(b, a, in_a * *pose(b))
+    }
+
+    fn mostly_touching(&self) -> Vec<(usize, usize)> {
+        let random = Random::new(0);
+        let drawn = (0..TRIALS).map(|trial| self.any_joints(&mut random.at(trial)));
+        let postures: Vec<Posture> = drawn.filter_map(|joints| self.posture(&joints)).collect();
+        let neighbours = |(a, b): (usize, usize)| {
+            let robot = self.arm.robot();
+            let parent = |link: usize| robot.links[self.links[link]].parent.map(|(above, _)| above);
+            parent(a) == Some(self.links[b]) || parent(b) == Some(self.links[a])
+        };
+        let mostly = |pair: (usize, usize)| {
+            let touching = postures.iter().filter(|posture| self.touch(posture, pair)).count();
+            touching as f64 >= MOSTLY * postures.len() as f64
+        };
+        self.pairs().filter(|pair| neighbours(*pair) || mostly(*pair)).collect()
+    }
+
+    /// Where the end-effector is, for a quick look at whether the camera has it in view.
+    pub(super) fn end_effector(
+        &self,
+        joints: &JointPositions,
+        camera_from_base: &Transform<Camera, Base>,
+    ) -> Option<Point3<f64>> {
+        let pose = self.arm.base_from_end_effector(joints).ok()?;
+        Some(camera_from_base.point(&Point3::from(pose.translation_m())))
+    }
+}

@@ -1,0 +1,133 @@
+//! Configurations worth recording: free, in view, turned toward the camera, far from each other.
+
+use super::SimulateError;
+use super::body::ArmBody;
+use crate::record::most_spread;
+use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
+use eyebolt_registration::Posture;
+use eyebolt_render::{PosedMesh, Random, Raster};
+use eyebolt_robot::JointPositions;
+use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+
+/// An arm at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Pose {
+    pub(super) joints: JointPositions,
+    pub(super) posture: Posture,
+}
+
+/// What looks on.
+pub(super) struct Onlooker<'a> {
+    pub(super) camera: &'a PinholeCamera,
+    pub(super) camera_from_base: Transform<Camera, Base>,
+    /// Nearest and farthest depth that it tells, metres.
+    pub(super) range_m: [f64; 2],
+}
+
+/// Good configurations gathered for each that is wanted, so that there is something to choose from.
+const CHOICE: usize = 8;
+/// Configurations drawn at most, and at a time.
+const MOST_DRAWN: u64 = 200_000;
+const BATCH: u64 = 512;
+
+/// `count` configurations of `body` that `onlooker` sees well, as different as they can be.
+pub(super) fn choose(
+    body: &ArmBody<'_>,
+    onlooker: &Onlooker<'_>,
+    count: usize,
+    random: Random,
+) -> Result<Vec<Pose>, SimulateError> {
+    let mut found: Vec<Pose> = Vec::new();
+    let mut drawn = 0;
+    while found.len() < CHOICE * count && drawn < MOST_DRAWN {
+        let batch = (drawn..drawn + BATCH).into_par_iter().map_init(
+            || [Raster::new(onlooker.camera), Raster::new(onlooker.camera)],
+            |rasters, place| good(body, onlooker, &mut random.at(place), rasters),
+        );
+        found.extend(batch.collect::<Vec<_>>().into_iter().flatten());
+        drawn += BATCH;
+    }
+    if found.len() < count {
+        return Err(SimulateError::OutOfView { found: found.len(), wanted: count });
+    }
+    found.truncate(CHOICE * count);
+    let poses: Vec<_> = found.iter().map(|pose| pose.posture.base_from_link().to_vec()).collect();
+    Ok(most_spread(&poses, count).into_iter().map(|index| found[index].clone()).collect())
+}
+
+/// The configuration that `random` draws, if it is a good one.
+fn good(
+    body: &ArmBody<'_>,
+    onlooker: &Onlooker<'_>,
+    random: &mut Random,
+    rasters: &mut [Raster; 2],
+) -> Option<Pose> {
+    let joints = body.any_joints(random);
+    let hand = body.end_effector(&joints, &onlooker.camera_from_base)?;
+    let [near, far] = onlooker.range_m;
+    let pixel = onlooker.camera.project(&hand)?;
+    if !(1.1 * near..0.95 * far).contains(&hand.z) || !onlooker.camera.contains(&pixel) {
+        return None;
+    }
+    let posture = body.posture(&joints)?;
+    let camera_in_base = onlooker.camera_from_base.inverse().point(&Point3::origin());
+    if body.bumps(&posture, &camera_in_base) || !shows_hand(body, onlooker, &posture, rasters) {
+        return None;
+    }
+    Some(Pose { joints, posture })
+}
+
+/// Share of what is seen of the end-effector alone that the arm leaves in sight.
+const IN_SIGHT: f64 = 0.6;
+/// Area seen of the end-effector, of the largest side of its box: turned toward the camera.
+const TURNED: f64 = 0.3;
+/// No part of the end-effector is nearer to the border of the image, pixels.
+const BORDER_PX: f64 = 4.0;
+
+/// Whether the whole end-effector is in the image, not much hidden, and not seen from its thin side.
+fn shows_hand(
+    body: &ArmBody<'_>,
+    onlooker: &Onlooker<'_>,
+    posture: &Posture,
+    [whole, alone]: &mut [Raster; 2],
+) -> bool {
+    let meshes = posture.meshes(&body.model, &onlooker.camera_from_base);
+    let is_hand = |link: u8| body.is_end_effector[usize::from(link)];
+    let hand: Vec<PosedMesh<'_>> = meshes.iter().filter(|m| is_hand(m.link)).copied().collect();
+    let inside = hand.iter().all(|posed| {
+        posed.mesh.vertices.iter().all(|vertex| in_image(onlooker, &posed.camera_from_link.point(&vertex.cast())))
+    });
+    if !inside {
+        return false;
+    }
+    alone.draw(onlooker.camera, &hand);
+    whole.draw(onlooker.camera, &meshes);
+    let seen = whole.pixels().filter(|at| whole.link(*at).is_some_and(is_hand)).count();
+    let focal = onlooker.camera.fx() * onlooker.camera.fy();
+    let area = alone.pixels().filter_map(|at| alone.depth_m(at)).map(|z| f64::from(z * z) / focal);
+    seen as f64 >= IN_SIGHT * alone.pixels().count() as f64
+        && area.sum::<f64>() >= TURNED * largest_side(&hand)
+}
+
+fn in_image(onlooker: &Onlooker<'_>, point: &Point3<f64>) -> bool {
+    let (width, height) = (onlooker.camera.width(), onlooker.camera.height());
+    let within = |at: f64, size: u32| (BORDER_PX..f64::from(size) - BORDER_PX).contains(&at);
+    let pixel = onlooker.camera.project(point);
+    pixel.is_some_and(|pixel| within(pixel.x, width) && within(pixel.y, height))
+}
+
+/// Area of the largest side of the box around `meshes`, along the axes of the first, square metres.
+fn largest_side(meshes: &[PosedMesh<'_>]) -> f64 {
+    let Some(first) = meshes.first() else { return 0.0 };
+    let first_from_camera = first.camera_from_link.inverse();
+    let vertices = meshes.iter().flat_map(|posed| {
+        let to_first = first_from_camera.isometry() * posed.camera_from_link.isometry();
+        posed.mesh.vertices.iter().map(move |vertex| (to_first * vertex.cast::<f64>()).coords)
+    });
+    let nothing = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let (low, high) = vertices.fold(nothing, |(low, high), v| (low.inf(&v), high.sup(&v)));
+    let mut size: [f64; 3] = (high - low).into();
+    size.sort_by(f64::total_cmp);
+    size[1] * size[2]
+}

@@ -1,0 +1,119 @@
+//! What goes wrong in laboratories, on purpose.
+
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_render::Random;
+use eyebolt_robot::{Arm, JointKind, JointPositions};
+use nalgebra::{UnitQuaternion, Vector3};
+use std::collections::BTreeMap;
+
+/// What a recording gets wrong. The default is nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Faults {
+    /// Factor of all depth.
+    pub depth_scale: f64,
+    /// Added to all depth, metres.
+    pub depth_offset_m: f64,
+    /// Factor of the focal lengths that the recording states.
+    pub focal_scale: f64,
+    /// Added to the principal point that the recording states, pixels.
+    pub centre_px: [f64; 2],
+    /// How far each joint that turns is from where it says, one way or the other, radians.
+    pub joint_offset: f64,
+    /// How far the joints that turn lag behind, whichever way they came, radians.
+    pub backlash: f64,
+    /// Added to the stamps of depth, seconds.
+    pub time_skew_s: f64,
+    /// The camera moves after half of the configurations: how far, metres and radians.
+    pub bump: Option<[f64; 2]>,
+}
+
+impl Default for Faults {
+    fn default() -> Self {
+        Self {
+            depth_scale: 1.0,
+            depth_offset_m: 0.0,
+            focal_scale: 1.0,
+            centre_px: [0.0; 2],
+            joint_offset: 0.0,
+            backlash: 0.0,
+            time_skew_s: 0.0,
+            bump: None,
+        }
+    }
+}
+
+impl Faults {
+    /// Those that are there, by name, with units in the names.
+    pub fn named(&self) -> BTreeMap<String, serde_json::Value> {
+        let none = Self::default();
+        let [bump_m, bump_rad] = self.bump.unwrap_or_default();
+        let rows = [
+            ("depth_scale", self.depth_scale, none.depth_scale),
+            ("depth_offset_mm", 1e3 * self.depth_offset_m, 0.0),
+            ("focal_scale", self.focal_scale, none.focal_scale),
+            ("centre_x_px", self.centre_px[0], 0.0),
+            ("centre_y_px", self.centre_px[1], 0.0),
+            ("joint_offset_deg", self.joint_offset.to_degrees(), 0.0),
+            ("backlash_deg", self.backlash.to_degrees(), 0.0),
+            ("time_skew_ms", 1e3 * self.time_skew_s, 0.0),
+            ("bump_mm", 1e3 * bump_m, 0.0),
+            ("bump_deg", bump_rad.to_degrees(), 0.0),
+        ];
+        let there = rows.into_iter().filter(|(_, value, none)| value != none);
+        there.map(|(name, value, _)| (name.to_owned(), value.into())).collect()
+    }
+
+    /// The camera's pose after it was bumped, if it is.
+    pub(super) fn bumped(
+        &self,
+        base_from_camera: &Transform<Base, Camera>,
+        random: &mut Random,
+    ) -> Option<Transform<Base, Camera>> {
+        let [translation_m, rotation] = self.bump?;
+        let moved = Transform::from_parts(
+            translation_m * direction(random),
+            UnitQuaternion::new(rotation * direction(random)),
+        );
+        Some(*base_from_camera * moved)
+    }
+}
+
+fn direction(random: &mut Random) -> Vector3<f64> {
+    let drawn = Vector3::from_fn(|_, _| random.normal());
+    drawn.try_normalize(1e-9).unwrap_or_else(Vector3::x)
+}
+
+/// What the joints of one robot say of where they are.
+#[derive(Clone, Debug)]
+pub(super) struct Encoders {
+    offsets: BTreeMap<String, f64>,
+    backlash: f64,
+}
+
+impl Encoders {
+    pub(super) fn new(arm: &Arm, faults: &Faults, random: &mut Random) -> Self {
+        let robot = arm.robot();
+        let turns = |name: &&str| {
+            robot.joint_index(name).is_some_and(|index| {
+                matches!(robot.joints[index].kind, JointKind::Revolute | JointKind::Continuous)
+            })
+        };
+        let joints = arm.required_joints().into_iter().filter(turns);
+        let mut sign = || if random.uniform() < 0.5 { -1.0 } else { 1.0 };
+        let offsets = joints.map(|name| (name.to_owned(), sign() * faults.joint_offset)).collect();
+        Self { offsets, backlash: faults.backlash }
+    }
+
+    /// What they say at `joints`, having come from `before`.
+    pub(super) fn read(&self, joints: &JointPositions, before: &JointPositions) -> JointPositions {
+        let told = joints.iter().map(|(name, position)| {
+            let Some(offset) = self.offsets.get(name) else {
+                return (name.to_owned(), position);
+            };
+            let came = position - before.get(name).unwrap_or(position);
+            let lag = if came == 0.0 { 0.0 } else { 0.5 * self.backlash * came.signum() };
+            (name.to_owned(), position + offset + lag)
+        });
+        told.collect()
+    }
+}

@@ -1,0 +1,130 @@
+//! Where a camera stands.
+
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_render::Random;
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+
+/// Where a camera stands and where it looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// One of [`PRESETS`].
+    Preset(&'static Preset),
+    /// Somewhere in these ranges, as the seed decides.
+    Within(Ranges),
+}
+
+/// A pose of the camera with a name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    position_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
+}
+
+/// The paper's three training and three test poses.
+///
+/// The paper prints no poses but how far apart they are, in a table; `presets.py` finds poses that
+/// are as far apart, and prints these rows.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "paper-train-p1",
+        position_m: [0.5747, -0.8825, 0.6379],
+        rotation_xyzw: [-0.782332, -0.179420, -0.034929, 0.595437],
+    },
+    Preset {
+        name: "paper-train-p2",
+        position_m: [1.1079, -0.0714, 0.7646],
+        rotation_xyzw: [-0.796297, -0.327631, 0.488463, 0.141325],
+    },
+    Preset {
+        name: "paper-train-p3",
+        position_m: [0.9247, 0.7635, 0.9653],
+        rotation_xyzw: [0.047976, -0.870978, 0.462911, 0.157507],
+    },
+    Preset {
+        name: "paper-test-p1",
+        position_m: [0.5342, -0.9117, 0.6249],
+        rotation_xyzw: [-0.765064, -0.091128, -0.116332, 0.626769],
+    },
+    Preset {
+        name: "paper-test-p2",
+        position_m: [1.0508, -0.0711, 0.7786],
+        rotation_xyzw: [-0.775993, -0.420665, 0.403403, 0.241126],
+    },
+    Preset {
+        name: "paper-test-p3",
+        position_m: [0.9729, 0.7658, 1.0044],
+        rotation_xyzw: [-0.260194, -0.883471, 0.293076, 0.256679],
+    },
+];
+
+impl Preset {
+    /// The preset called `name`.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        PRESETS.iter().find(|preset| preset.name == name)
+    }
+
+    /// The pose.
+    pub fn base_from_camera(&self) -> Transform<Base, Camera> {
+        let pose = Transform::from_xyzw(self.position_m, self.rotation_xyzw);
+        pose.expect("presets are rotations")
+    }
+}
+
+/// Ranges, least and greatest, of where a camera stands about what it looks at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranges {
+    /// Distance from the middle of the workspace, metres.
+    pub distance_m: [f64; 2],
+    /// Direction from there in the plane of the table, from the base's x toward its y, radians.
+    pub azimuth: [f64; 2],
+    /// How steeply it looks down, radians.
+    pub elevation: [f64; 2],
+    /// How far the middle of the workspace may be off the middle of the image, and how far the
+    /// camera may be rolled, radians.
+    pub askew: f64,
+}
+
+impl Default for Ranges {
+    /// On a tripod before or beside the table, or on a shelf above it.
+    fn default() -> Self {
+        Self {
+            distance_m: [0.95, 1.5],
+            azimuth: [-1.9, 1.9],
+            elevation: [0.15, 0.85],
+            askew: 0.14,
+        }
+    }
+}
+
+/// Where arms mostly work, base frame, metres: before them, at the height of an elbow.
+const WORKSPACE_M: Vector3<f64> = Vector3::new(0.40, 0.0, 0.34);
+
+impl Viewpoint {
+    /// The pose.
+    pub fn base_from_camera(&self, random: &mut Random) -> Transform<Base, Camera> {
+        let ranges = match self {
+            Self::Preset(preset) => return preset.base_from_camera(),
+            Self::Within(ranges) => ranges,
+        };
+        let mut within = |[low, high]: [f64; 2]| random.between(low, high);
+        let distance = within(ranges.distance_m);
+        let (azimuth, elevation) = (within(ranges.azimuth), within(ranges.elevation));
+        let level = Vector3::new(azimuth.cos(), azimuth.sin(), 0.0);
+        let away = elevation.cos() * level + elevation.sin() * Vector3::z();
+        let mut askew = || random.between(-ranges.askew, ranges.askew);
+        let turn = UnitQuaternion::from_euler_angles(askew(), askew(), askew());
+        Transform::from_parts(WORKSPACE_M + distance * away, looking_along(&-away) * turn)
+    }
+}
+
+/// An optical frame that looks along `forward`, with its x axis level.
+fn looking_along(forward: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let z = forward.normalize();
+    // Straight up or down any direction is level.
+    let across = z.cross(&Vector3::z());
+    let x = across.try_normalize(1e-9).unwrap_or_else(Vector3::x);
+    let axes = nalgebra::Matrix3::from_columns(&[x, z.cross(&x), z]);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
+}
