@@ -6,9 +6,14 @@
 mod contour;
 mod random;
 mod raster;
+mod sensor;
 mod view;
 
 pub use contour::{ContourPoint, contour, outer_contour};
 pub use random::Random;
 pub use raster::{PosedMesh, Raster};
+pub use sensor::{
+    AxialNoise, Exposure, Family, IntrinsicsError, LateralNoise, Mode, Sensor, Specimen,
+    Triangulation, UnknownSensor, Window,
+};
 pub use view::View;
