@@ -6,9 +6,11 @@
 mod contour;
 mod random;
 mod raster;
+mod rays;
 mod view;
 
 pub use contour::{ContourPoint, contour, outer_contour};
 pub use random::Random;
 pub use raster::{PosedMesh, Raster};
+pub use rays::{Hit, RayScene, SceneMesh};
 pub use view::View;
