@@ -16,8 +16,10 @@ pub use exposure::Exposure;
 pub use specimen::{IntrinsicsError, Specimen};
 pub use triangulation::{AxialNoise, LateralNoise, Triangulation, Window};
 
+use crate::rays::RayScene;
 use crate::view::View;
-use eyebolt_geometry::{Distortion, PinholeCamera};
+use eyebolt_geometry::{Base, Camera, Distortion, PinholeCamera, RayTable, Transform};
+use nalgebra::Point3;
 use std::fmt;
 use std::str::FromStr;
 
@@ -80,6 +82,33 @@ impl Sensor {
             Family::Ideal => None,
             Family::Triangulation(figures) => Some(figures.baseline_m),
         }
+    }
+
+    /// What `specimen` makes of `scene`, with `camera` at a pose.
+    ///
+    /// All that frames have in common is worked out here, once per configuration of the scene.
+    /// `camera` may be another than [`Self::camera`], a crop of it for instance.
+    pub fn look(
+        &self,
+        scene: &RayScene,
+        camera: &PinholeCamera,
+        base_from_camera: &Transform<Base, Camera>,
+        specimen: &Specimen,
+    ) -> Exposure {
+        let rays = RayTable::new(camera);
+        let view = scene.view_along(&rays, base_from_camera);
+        let second_sees = self.baseline_m().map_or(Vec::new(), |baseline_m| {
+            let pose = base_from_camera.isometry().cast::<f32>();
+            let points = view.depth_m.iter().zip(rays.rays());
+            // Where nothing is seen the point is the lens itself: seen or not, it has no depth.
+            let in_base = |(z, [x, y]): (&f32, &[f32; 2])| match *z {
+                0.0 => pose.translation.vector.into(),
+                z => pose * Point3::new(x * z, y * z, z),
+            };
+            let points: Vec<Point3<f32>> = points.map(in_base).collect();
+            scene.visible_from(base_from_camera.point(&Point3::new(baseline_m, 0.0, 0.0)), &points)
+        });
+        self.expose(&view, camera, &second_sees, specimen)
     }
 
     /// What `specimen` makes of `view`, the ideal view of `camera`.
