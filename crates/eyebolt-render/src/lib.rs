@@ -17,6 +17,6 @@ pub use raster::{PosedMesh, Raster};
 pub use rays::{Hit, RayScene, SceneMesh};
 pub use sensor::{
     AxialNoise, Exposure, Family, IntrinsicsError, LateralNoise, Mode, Sensor, Specimen,
-    Triangulation, UnknownSensor, Window,
+    TimeOfFlight, Triangulation, UnknownSensor, Window,
 };
 pub use view::View;

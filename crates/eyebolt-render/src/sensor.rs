@@ -8,12 +8,15 @@
 mod exposure;
 mod field;
 mod models;
+mod multipath;
 mod specimen;
+mod time_of_flight;
 mod triangulation;
 mod window;
 
 pub use exposure::Exposure;
 pub use specimen::{IntrinsicsError, Specimen};
+pub use time_of_flight::TimeOfFlight;
 pub use triangulation::{AxialNoise, LateralNoise, Triangulation, Window};
 
 use crate::rays::RayScene;
@@ -59,6 +62,8 @@ pub enum Family {
     Ideal,
     /// By the angle between two rays: structured light, stereo.
     Triangulation(Triangulation),
+    /// By the time that light takes.
+    TimeOfFlight(TimeOfFlight),
 }
 
 impl Sensor {
@@ -79,7 +84,7 @@ impl Sensor {
     /// Where the second lens or the projector is in the camera's frame, metres along x.
     pub fn baseline_m(&self) -> Option<f64> {
         match &self.family {
-            Family::Ideal => None,
+            Family::Ideal | Family::TimeOfFlight(_) => None,
             Family::Triangulation(figures) => Some(figures.baseline_m),
         }
     }
@@ -133,6 +138,9 @@ impl Sensor {
             Family::Triangulation(figures) => {
                 assert_eq!(second_sees.len(), view.depth_m.len(), "each pixel is seen or not");
                 triangulation::expose(figures, view, camera, second_sees, specimen)
+            }
+            Family::TimeOfFlight(figures) => {
+                time_of_flight::expose(figures, view, camera, specimen)
             }
         };
         exposure.range_m = self.range_m.map(|depth| depth as f32);

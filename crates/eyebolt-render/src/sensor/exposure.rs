@@ -56,6 +56,8 @@ impl Readout {
 pub struct Lateral {
     /// Standard deviation of the displacement, pixels; 0 away from edges.
     pub sigma_px: Vec<f32>,
+    /// Lag at which displacements are half correlated, pixels.
+    pub half_px: f32,
     /// Values that differ by more than this belong to two surfaces.
     pub apart: f32,
     /// Displacement along u and v that all frames share, variance `fixed_share`.
@@ -64,9 +66,8 @@ pub struct Lateral {
     pub fixed_share: f32,
 }
 
-/// Lag at which displacements, and doubts whether there is a value, are half correlated: edges are
-/// ragged, not pepper and salt.
-pub(super) const RAGGED_PX: f32 = 2.5;
+/// Lag at which doubts whether there is a value are half correlated, pixels: holes are blots.
+const BLOT_PX: f32 = 2.5;
 
 /// The noise of one frame.
 struct Noise {
@@ -111,11 +112,12 @@ impl Exposure {
 
     fn noise(&self, random: Random) -> Noise {
         let field = |place, half_px| Field::new(random.at(place), self.size, half_px);
+        let lateral = self.lateral.as_ref();
         Noise {
             random: random.at(0),
             value: (self.half_px > 0.0).then(|| field(0, self.half_px)),
-            doubt: field(1, RAGGED_PX),
-            shift: self.lateral.is_some().then(|| [field(2, RAGGED_PX), field(3, RAGGED_PX)]),
+            doubt: field(1, BLOT_PX),
+            shift: lateral.map(|lateral| [2, 3].map(|place| field(place, lateral.half_px))),
         }
     }
 

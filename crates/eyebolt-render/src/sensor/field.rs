@@ -7,7 +7,7 @@ use rayon::prelude::*;
 ///
 /// Independent normal numbers at the nodes of a lattice, weighted by quadratic B-splines (Unser,
 /// *Splines: a perfect fit for signal and image processing*, IEEE Signal Processing Magazine,
-/// 1999, equation 1) and divided by the norm of the weights, so that no place has less variance
+/// 1999) and divided by the norm of the weights, so that no place has less variance
 /// than another.
 #[derive(Clone, Debug)]
 pub struct Field {

@@ -1,11 +1,9 @@
 //! Depth from the angle between two rays: structured light and stereo.
 
-use super::exposure::{Exposure, Lateral, RAGGED_PX, Readout};
+use super::exposure::{Exposure, Lateral, Readout};
 use super::field::{Field, Layers};
 use super::specimen::Specimen;
-use super::window::{
-    APART_PX, Disparities, Neighbour, matching_share, near_edges, nearest_in_front,
-};
+use super::window::{APART_PX, Disparities, Neighbour, matches, near_edges, nearest_in_front};
 use crate::view::View;
 use eyebolt_geometry::PinholeCamera;
 use nalgebra::{Point2, Vector3};
@@ -44,7 +42,8 @@ pub struct Triangulation {
     pub fattening_px: f64,
     /// How wide a rim without depth lies around that, pixels.
     pub rim_px: f64,
-    /// Angle between surface normal and ray beyond which there is no depth, radians.
+    /// Angle between surface normal and ray, mean over the window, beyond which there is no depth,
+    /// radians.
     pub largest_angle_rad: f64,
 }
 
@@ -78,6 +77,8 @@ pub struct LateralNoise {
     pub base_px: f64,
     /// Pixels.
     pub grazing_px: f64,
+    /// Lag along an edge at which its displacement is half correlated, pixels.
+    pub half_correlation_px: f64,
 }
 
 /// The window that is compared.
@@ -138,15 +139,15 @@ pub fn expose(
     let lit = geometry.in_sight(figures, size, second_sees);
     let image = Disparities { size, px: &lit, slope: &geometry.slope };
     let (value, from) = fatten(figures, &image);
-    let share = matching_share(size, &lit, figures.window.half_px);
+    let matches = matches(&image, &geometry.angle_rad, figures.window.half_px);
     let confidence = from.par_iter().map(|at| {
-        let share = (share[*at] - figures.window.least_share as f32) / SHARE_SPREAD;
-        let angle = figures.largest_angle_rad as f32 - geometry.angle_rad[*at];
+        let share = (matches[*at].share - figures.window.least_share as f32) / SHARE_SPREAD;
+        let angle = figures.largest_angle_rad as f32 - matches[*at].angle_rad;
         share.min(angle / ANGLE_SPREAD_RAD)
     });
     let sigma = value.par_iter().zip(&from).map(|(px, at)| {
         let depth_m = product / f64::from(*px);
-        let angle = f64::from(geometry.angle_rad[*at]);
+        let angle = f64::from(matches[*at].angle_rad);
         figures.axial.disparity_px(depth_m, angle, product, figures.step_px) as f32
     });
     let exposure = Exposure {
@@ -227,7 +228,7 @@ fn with_lateral(
     angle_rad: &[f32],
     specimen: &Specimen,
 ) -> Exposure {
-    let LateralNoise { base_px, grazing_px } = figures.lateral;
+    let LateralNoise { base_px, grazing_px, half_correlation_px } = figures.lateral;
     if base_px == 0.0 {
         return exposure;
     }
@@ -239,9 +240,11 @@ fn with_lateral(
         let sigma_px = (total_px.powi(2) - 1.0 / 12.0).max(0.0).sqrt();
         if *near { sigma_px.min(reach as f64) as f32 } else { 0.0 }
     });
-    let field = |place| Field::new(specimen.random.at(place), exposure.size, RAGGED_PX);
+    let half_px = half_correlation_px as f32;
+    let field = |place| Field::new(specimen.random.at(place), exposure.size, half_px);
     let lateral = Lateral {
         sigma_px: sigma_px.collect(),
+        half_px,
         apart: APART_PX,
         fixed: [field(1), field(2)],
         fixed_share: figures.fixed_share as f32,

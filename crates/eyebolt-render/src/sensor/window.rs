@@ -25,26 +25,43 @@ pub struct Neighbour {
     pub distance_px: f32,
 }
 
-/// Share of the pixels of the window around each pixel, `2 half + 1` wide and high, whose
-/// disparity is the pixel's own. What lies off the image or has no disparity does not match.
-pub fn matching_share(size: [usize; 2], px: &[f32], half: usize) -> Vec<f32> {
-    let [width, height] = size;
+/// What the window around a pixel has in common with its middle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Match {
+    /// Share of its pixels whose disparity is that of the middle. What lies off the image or has no
+    /// disparity does not match.
+    pub share: f32,
+    /// Mean angle between normal and ray of those that match, radians.
+    pub angle_rad: f32,
+}
+
+/// The match of the window around each pixel, `2 half + 1` pixels wide and high, given the angle
+/// between normal and ray at each pixel.
+pub fn matches(image: &Disparities<'_>, angle_rad: &[f32], half: usize) -> Vec<Match> {
+    let [width, height] = image.size;
     let whole = ((2 * half + 1) * (2 * half + 1)) as f32;
-    let mut shares = vec![0.0; px.len()];
-    shares.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
+    let mut matches = vec![Match::default(); image.px.len()];
+    matches.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
         let rows = v.saturating_sub(half)..(v + half + 1).min(height);
-        for (u, share) in row.iter_mut().enumerate() {
-            let own = px[v * width + u];
+        for (u, found) in row.iter_mut().enumerate() {
+            let own = image.px[v * width + u];
             if own == 0.0 {
                 continue;
             }
-            let (first, last) = (u.saturating_sub(half), (u + half + 1).min(width));
-            let like = |other: &&f32| **other > 0.0 && (**other - own).abs() < APART_PX;
-            let in_row = |v: usize| px[v * width + first..v * width + last].iter().filter(like);
-            *share = rows.clone().map(|v| in_row(v).count()).sum::<usize>() as f32 / whole;
+            let columns = u.saturating_sub(half)..(u + half + 1).min(width);
+            let (mut count, mut angles) = (0.0, 0.0);
+            for v in rows.clone() {
+                let row = v * width + columns.start..v * width + columns.end;
+                for (other, angle) in image.px[row.clone()].iter().zip(&angle_rad[row]) {
+                    let like = *other > 0.0 && (*other - own).abs() < APART_PX;
+                    count += if like { 1.0 } else { 0.0 };
+                    angles += if like { *angle } else { 0.0 };
+                }
+            }
+            *found = Match { share: count / whole, angle_rad: angles / count };
         }
     });
-    shares
+    matches
 }
 
 /// The nearest pixel of each within `reach_px` that sees something before the plane at the pixel.
