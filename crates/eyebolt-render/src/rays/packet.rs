@@ -115,3 +115,10 @@ pub(super) fn middle_and_half([low, high]: [f32; 2]) -> (f32, f32) {
     let half = 0.5 * (high - low);
     (middle, half + ROUNDING * (middle.abs() + half))
 }
+
+/// The greatest of numbers that are not negative, which order like their bits; the order of these
+/// comparisons is free, so that they are made side by side.
+#[inline(always)]
+pub(super) fn greatest(lanes: &Lanes) -> f32 {
+    f32::from_bits(lanes.iter().fold(0, |greatest, value| value.to_bits().max(greatest)))
+}

@@ -50,7 +50,8 @@ impl RayScene {
         let narrow = axes.is_some_and(|axes| {
             let along = |p| {
                 let ray: Vector3<f64> = axes * to_point(p);
-                !(ray.z < WIDEST * ray.norm())
+                // What is not finite, or in the eye itself, fits anywhere.
+                ray.z >= WIDEST * ray.norm() || !(ray.norm() > 0.0)
             };
             points.iter().all(along)
         });

@@ -2,7 +2,7 @@
 
 use super::bvh::{Bvh, Child, LANES, Lanes, Node};
 use super::eye::Eye;
-use super::packet::Packet;
+use super::packet::{Packet, greatest};
 use super::triangles::Seen;
 
 /// What is still to be visited: a box and how near it is.
@@ -156,13 +156,4 @@ fn push_children(node: &Node, frustum: &Frustum, farthest: f32, stack: &mut Vec<
             }
         }
     }
-}
-
-#[inline(always)]
-fn greatest(lanes: &Lanes) -> f32 {
-    let mut greatest = lanes[0];
-    for value in lanes {
-        greatest = if *value > greatest { *value } else { greatest };
-    }
-    greatest
 }
