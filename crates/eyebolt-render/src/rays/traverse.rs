@@ -121,8 +121,10 @@ fn cast_here<const ANY: bool>(bvh: &Bvh, eye: &Eye, packet: &mut Packet, stack: 
     if bvh.nodes.is_empty() {
         return;
     }
+    packet.bound();
     let frustum = Frustum::new(eye, packet);
     let mut farthest = greatest(&packet.farthest);
+    let mut rows_bounded = false;
     stack.clear();
     stack.push(Todo { near: f32::NEG_INFINITY, child: Child::node(0) });
     while let Some(Todo { near, child }) = stack.pop() {
@@ -132,6 +134,10 @@ fn cast_here<const ANY: bool>(bvh: &Bvh, eye: &Eye, packet: &mut Packet, stack: 
         match child.index() {
             Ok(index) => push_children(&bvh.nodes[index], &frustum, farthest, stack),
             Err(index) => {
+                if !rows_bounded {
+                    packet.bound_rows();
+                    rows_bounded = true;
+                }
                 let seen = Seen::new(&bvh.leaves[index], eye, packet, farthest);
                 seen.hit::<ANY>(packet, (index * LANES) as u32);
                 farthest = greatest(&packet.farthest);
