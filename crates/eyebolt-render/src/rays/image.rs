@@ -8,16 +8,17 @@ use crate::view::View;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, RayTable, Transform};
 use nalgebra::Point3;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// A packet is a tile of 8 x 8 pixels; its rows are blocks of 4 x 2, which fewer triangles touch
 /// than 8 x 1.
 const SIDE: usize = 8;
 const BLOCK: usize = 4;
 
-/// Column and row in the tile of a ray of its packet.
+/// Row and lane in its packet of the ray of a pixel of the tile.
 #[inline(always)]
-fn pixel(row: usize, lane: usize) -> (usize, usize) {
-    (row % 2 * BLOCK + lane % BLOCK, row / 2 * 2 + lane / BLOCK)
+fn ray(u: usize, v: usize) -> (usize, usize) {
+    (v / 2 * 2 + u / BLOCK, v % 2 * BLOCK + u % BLOCK)
 }
 
 impl RayScene {
@@ -80,8 +81,9 @@ impl RayScene {
             |(packet, stack), (image, rays)| {
                 for left in (0..width).step_by(SIDE) {
                     let tile = Tile { width, left };
-                    tile.gather(rays, packet);
-                    cast::<false>(&self.bvh, &eye, packet, stack);
+                    if tile.gather(rays, packet) {
+                        cast::<false>(&self.bvh, &eye, packet, stack);
+                    }
                     tile.scatter(packet, image, &found);
                 }
             },
@@ -96,27 +98,37 @@ struct Tile {
 }
 
 impl Tile {
-    /// The pixels of each ray of a packet, as index in a band of `count` pixels, if there are.
-    fn index(&self, count: usize, row: usize, lane: usize) -> Option<usize> {
-        let (u, v) = pixel(row, lane);
-        let at = v * self.width + self.left + u;
-        (self.left + u < self.width && at < count).then_some(at)
+    /// The pixels of row `v` of the tile, as far as there are any, in a band of `count`.
+    fn row(&self, count: usize, v: usize) -> Range<usize> {
+        let first = (v * self.width + self.left).min(count);
+        first..(first + SIDE.min(self.width - self.left)).min(count)
     }
 
-    fn gather(&self, rays: &[[f32; 2]], packet: &mut Packet) {
-        packet.fill(|row, lane| {
-            let [x, y] = rays[self.index(rays.len(), row, lane)?];
-            (x.is_finite() && y.is_finite()).then_some([x, y, f32::INFINITY])
-        });
+    fn gather(&self, rays: &[[f32; 2]], packet: &mut Packet) -> bool {
+        packet.nearest = [[f32::INFINITY; LANES]; ROWS];
+        for v in 0..SIDE {
+            let here = &rays[self.row(rays.len(), v)];
+            let mut pixels = [[f32::NAN; 2]; SIDE];
+            match here.try_into() {
+                Ok(whole) => pixels = whole,
+                Err(_) => pixels[..here.len()].copy_from_slice(here),
+            }
+            for u in 0..SIDE {
+                let (row, lane) = ray(u, v);
+                [packet.x[row][lane], packet.y[row][lane]] = pixels[u];
+            }
+        }
+        packet.settle()
     }
 
     fn scatter<T>(&self, packet: &Packet, image: &mut [T], found: &impl Fn(f32, u32) -> T) {
-        for row in 0..ROWS {
-            for lane in 0..LANES {
-                let Some(at) = self.index(image.len(), row, lane) else { continue };
+        for v in 0..SIDE {
+            let here = self.row(image.len(), v);
+            for (u, pixel) in image[here].iter_mut().enumerate() {
+                let (row, lane) = ray(u, v);
                 let place = packet.hit[row][lane];
                 let z = if place == Packet::NOTHING { 0.0 } else { packet.nearest[row][lane] };
-                image[at] = found(z, place);
+                *pixel = found(z, place);
             }
         }
     }

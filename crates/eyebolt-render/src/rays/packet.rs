@@ -1,6 +1,7 @@
 //! Rays that go much the same way, as one piece of work.
 
 use super::bvh::{LANES, Lanes};
+use std::iter::zip;
 
 /// Rows of rays in a packet.
 pub(super) const ROWS: usize = 8;
@@ -54,58 +55,76 @@ impl Packet {
         }
     }
 
-    /// Fills the packet with the rays `[x, y, z up to where hits count]` that `ray` gives for row
-    /// and lane; `None` where there is none. False if there is none at all.
+    /// Makes the packet ready for its rays, which the caller wrote to `x`, `y` and `nearest`: NaN
+    /// where there is none. False if there is none at all.
     #[inline(always)]
-    pub fn fill(&mut self, ray: impl Fn(usize, usize) -> Option<[f32; 3]>) -> bool {
-        let mut some = None;
-        for row in 0..ROWS {
-            for lane in 0..LANES {
-                let ray = ray(row, lane);
-                some = some.or(ray);
-                // A ray that is not there goes beside one that is, and no hit counts.
-                let [x, y, z] = ray.unwrap_or([f32::NAN, f32::NAN, 0.0]);
-                (self.x[row][lane], self.y[row][lane], self.nearest[row][lane]) = (x, y, z);
-            }
-        }
-        let Some([x, y, _]) = some else { return false };
-        for row in 0..ROWS {
-            for lane in 0..LANES {
-                if self.x[row][lane].is_nan() {
-                    (self.x[row][lane], self.y[row][lane]) = (x, y);
-                }
-            }
-        }
+    pub fn settle(&mut self) -> bool {
         self.hit = [[Self::NOTHING; LANES]; ROWS];
-        self.bound();
+        let exists = |(x, y): (&f32, &f32)| x.is_finite() & y.is_finite();
+        let all = (0..ROWS)
+            .all(|row| zip(&self.x[row], &self.y[row]).fold(true, |all, ray| all & exists(ray)));
+        all || self.stand_in()
+    }
+
+    /// Puts rays that are not there beside one that is, and lets no hit of them count. False if
+    /// there is none at all.
+    fn stand_in(&mut self) -> bool {
+        let finite = |(x, y): &(f32, f32)| x.is_finite() && y.is_finite();
+        let (xs, ys) = (self.x.as_flattened_mut(), self.y.as_flattened_mut());
+        let ray = zip(&*xs, &*ys).map(|(x, y)| (*x, *y)).find(finite);
+        let Some((some_x, some_y)) = ray else { return false };
+        for ((x, y), nearest) in zip(xs, ys).zip(self.nearest.as_flattened_mut()) {
+            if !finite(&(*x, *y)) {
+                (*x, *y, *nearest) = (some_x, some_y, 0.0);
+            }
+        }
         true
     }
 
+    /// Sets what is known of all rays together. Hits are told from it apart, so that it may be
+    /// done where registers are wide.
     #[inline(always)]
-    fn bound(&mut self) {
-        let mut whole = [[f32::INFINITY, f32::NEG_INFINITY]; 2];
+    pub fn bound(&mut self) {
+        self.x_range = range(&self.x);
+        self.y_range = range(&self.y);
+        let mut farthest = [0; LANES];
+        for row in &self.nearest {
+            farthest = std::array::from_fn(|lane| row[lane].to_bits().max(farthest[lane]));
+        }
+        self.farthest = [greatest(&farthest.map(f32::from_bits)); ROWS];
+    }
+
+    /// Sets what is known of the rays of each row, which only packets near a triangle need.
+    #[inline(always)]
+    pub fn bound_rows(&mut self) {
         for row in 0..ROWS {
-            let x = range(&self.x[row]);
-            let y = range(&self.y[row]);
+            let (x, y) = (range(&[self.x[row]]), range(&[self.y[row]]));
             (self.x_middle[row], self.x_half[row]) = middle_and_half(x);
             (self.y_middle[row], self.y_half[row]) = middle_and_half(y);
-            for (whole, row) in whole.iter_mut().zip([x, y]) {
-                *whole = [whole[0].min(row[0]), whole[1].max(row[1])];
-            }
-            self.farthest[row] = range(&self.nearest[row])[1];
+            self.farthest[row] = greatest(&self.nearest[row]);
         }
-        [self.x_range, self.y_range] = whole;
     }
 }
 
+/// Least and greatest.
 #[inline(always)]
-fn range(lanes: &Lanes) -> [f32; 2] {
-    let (mut low, mut high) = (lanes[0], lanes[0]);
-    for value in lanes {
-        low = if *value < low { *value } else { low };
-        high = if *value > high { *value } else { high };
+fn range<const COUNT: usize>(rows: &[Lanes; COUNT]) -> [f32; 2] {
+    let (mut low, mut high) = (rows[0], rows[0]);
+    for row in rows {
+        for lane in 0..LANES {
+            low[lane] = if row[lane] < low[lane] { row[lane] } else { low[lane] };
+            high[lane] = if row[lane] > high[lane] { row[lane] } else { high[lane] };
+        }
     }
-    [low, high]
+    // Halves against each other, so that few comparisons wait for others.
+    for half in [4, 2, 1] {
+        for lane in 0..half {
+            let (l, h) = (low[lane + half], high[lane + half]);
+            low[lane] = if l < low[lane] { l } else { low[lane] };
+            high[lane] = if h > high[lane] { h } else { high[lane] };
+        }
+    }
+    [low[0], high[0]]
 }
 
 /// The half width is a hair more than it is, so that what is found to be outside is.
@@ -114,4 +133,11 @@ pub(super) fn middle_and_half([low, high]: [f32; 2]) -> (f32, f32) {
     let middle = 0.5 * (low + high);
     let half = 0.5 * (high - low);
     (middle, half + ROUNDING * (middle.abs() + half))
+}
+
+/// The greatest of numbers that are not negative, which order like their bits; the order of these
+/// comparisons is free, so that they are made side by side.
+#[inline(always)]
+pub(super) fn greatest(lanes: &Lanes) -> f32 {
+    f32::from_bits(lanes.iter().fold(0, |greatest, value| value.to_bits().max(greatest)))
 }

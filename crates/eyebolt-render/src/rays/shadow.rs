@@ -50,7 +50,8 @@ impl RayScene {
         let narrow = axes.is_some_and(|axes| {
             let along = |p| {
                 let ray: Vector3<f64> = axes * to_point(p);
-                !(ray.z < WIDEST * ray.norm())
+                // What is not finite, or in the eye itself, fits anywhere.
+                ray.z >= WIDEST * ray.norm() || !(ray.norm() > 0.0)
             };
             points.iter().all(along)
         });
@@ -67,12 +68,16 @@ impl RayScene {
         };
         let Scratch { packet, stack } = scratch;
         let units = (1.0 / self.metres()) as f32;
-        packet.fill(|row, lane| {
-            let ray = (axes * to_point(points.get(row * LANES + lane)?)).map(|v| v as f32);
-            let [x, y, z] = [ray.x / ray.z, ray.y / ray.z, ray.z * units * (1.0 - OWN_SURFACE)];
-            (x.is_finite() && y.is_finite() && z.is_finite()).then_some([x, y, z])
-        });
-        cast::<true>(&self.bvh, &self.eye(eye_in_base, &axes), packet, stack);
+        for at in 0..RAYS {
+            let ray = points.get(at).map(|p| (axes * to_point(p)).map(|v| v as f32));
+            let [x, y, z] = ray.map_or([f32::NAN; 3], Into::into);
+            let (row, lane) = (at / LANES, at % LANES);
+            (packet.x[row][lane], packet.y[row][lane]) = (x / z, y / z);
+            packet.nearest[row][lane] = z * units * (1.0 - OWN_SURFACE);
+        }
+        if packet.settle() {
+            cast::<true>(&self.bvh, &self.eye(eye_in_base, &axes), packet, stack);
+        }
         for (at, (visible, point)) in visible.iter_mut().zip(points).enumerate() {
             let finite = point.iter().all(|v| v.is_finite());
             *visible = finite && packet.hit[at / LANES][at % LANES] == Packet::NOTHING;

@@ -30,7 +30,8 @@ impl RayScene {
         let direction = direction_in_base.try_normalize(0.0)?;
         let eye = self.eye(origin_in_base, &axes_along(&direction));
         let mut packet = Packet::new();
-        packet.fill(|row, lane| (row + lane == 0).then_some([0.0, 0.0, f32::INFINITY]));
+        packet.nearest[0][0] = f32::INFINITY;
+        packet.settle();
         cast::<false>(&self.bvh, &eye, &mut packet, &mut Vec::new());
         let place = packet.hit[0][0];
         if place == Packet::NOTHING {

@@ -2,7 +2,7 @@
 
 use super::bvh::{Bvh, Child, LANES, Lanes, Node};
 use super::eye::Eye;
-use super::packet::Packet;
+use super::packet::{Packet, greatest};
 use super::triangles::Seen;
 
 /// What is still to be visited: a box and how near it is.
@@ -121,8 +121,10 @@ fn cast_here<const ANY: bool>(bvh: &Bvh, eye: &Eye, packet: &mut Packet, stack: 
     if bvh.nodes.is_empty() {
         return;
     }
+    packet.bound();
     let frustum = Frustum::new(eye, packet);
     let mut farthest = greatest(&packet.farthest);
+    let mut rows_bounded = false;
     stack.clear();
     stack.push(Todo { near: f32::NEG_INFINITY, child: Child::node(0) });
     while let Some(Todo { near, child }) = stack.pop() {
@@ -132,6 +134,10 @@ fn cast_here<const ANY: bool>(bvh: &Bvh, eye: &Eye, packet: &mut Packet, stack: 
         match child.index() {
             Ok(index) => push_children(&bvh.nodes[index], &frustum, farthest, stack),
             Err(index) => {
+                if !rows_bounded {
+                    packet.bound_rows();
+                    rows_bounded = true;
+                }
                 let seen = Seen::new(&bvh.leaves[index], eye, packet, farthest);
                 seen.hit::<ANY>(packet, (index * LANES) as u32);
                 farthest = greatest(&packet.farthest);
@@ -156,13 +162,4 @@ fn push_children(node: &Node, frustum: &Frustum, farthest: f32, stack: &mut Vec<
             }
         }
     }
-}
-
-#[inline(always)]
-fn greatest(lanes: &Lanes) -> f32 {
-    let mut greatest = lanes[0];
-    for value in lanes {
-        greatest = if *value > greatest { *value } else { greatest };
-    }
-    greatest
 }

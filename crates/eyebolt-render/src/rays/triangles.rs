@@ -7,7 +7,7 @@
 
 use super::bvh::{LANES, Lanes, Leaf};
 use super::eye::Eye;
-use super::packet::{Packet, ROWS, middle_and_half};
+use super::packet::{Packet, ROWS, greatest, middle_and_half};
 
 /// The triangles of a leaf as seen from an eye.
 pub(super) struct Seen {
@@ -94,21 +94,26 @@ impl Seen {
     /// With `ANY`, a ray that hits something is done.
     #[inline(always)]
     pub fn hit<const ANY: bool>(&self, packet: &mut Packet, first: u32) {
-        for lane in 0..LANES {
-            if !self.keep[lane] {
-                continue;
-            }
+        for lane in set(self.keep) {
             let planes: [[f32; 3]; 3] =
                 std::array::from_fn(|e| std::array::from_fn(|axis| self.planes[e][axis][lane]));
             let z: [f32; 3] = std::array::from_fn(|corner| self.z[corner][lane]);
-            let rows = rows(packet, &planes, self.nearest[lane]);
-            for row in 0..ROWS {
-                if rows[row] {
-                    hit_row::<ANY>(packet, row, &planes, &z, first + lane as u32);
-                }
+            for row in set(rows(packet, &planes, self.nearest[lane])) {
+                hit_row::<ANY>(packet, row, &planes, &z, first + lane as u32);
             }
         }
     }
+}
+
+/// The lanes that are true, without a branch for those that are not.
+#[inline(always)]
+fn set(lanes: [bool; LANES]) -> impl Iterator<Item = usize> {
+    let mut bytes = u64::from_le_bytes(lanes.map(u8::from));
+    std::iter::from_fn(move || {
+        let lane = bytes.trailing_zeros() as usize / 8;
+        bytes &= bytes.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
 }
 
 /// Rows of which some ray may hit.
@@ -138,10 +143,9 @@ fn hit_row<const ANY: bool>(
     z: &[f32; 3],
     place: u32,
 ) {
-    let (x, y) = (&packet.x[row], &packet.y[row]);
-    let (nearest, hit) = (&mut packet.nearest[row], &mut packet.hit[row]);
+    let (x, y) = (packet.x[row], packet.y[row]);
+    let (mut nearest, mut hit) = (packet.nearest[row], packet.hit[row]);
     let [a, b, c] = planes;
-    let mut farthest = 0.0;
     for lane in 0..LANES {
         let u = x[lane] * a[0] + y[lane] * a[1] + a[2];
         let v = x[lane] * b[0] + y[lane] * b[1] + b[2];
@@ -153,7 +157,8 @@ fn hit_row<const ANY: bool>(
         let found = if ANY { 0.0 } else { at };
         nearest[lane] = if nearer { found } else { nearest[lane] };
         hit[lane] = if nearer { place } else { hit[lane] };
-        farthest = max(farthest, nearest[lane]);
     }
-    packet.farthest[row] = farthest;
+    packet.nearest[row] = nearest;
+    packet.hit[row] = hit;
+    packet.farthest[row] = greatest(&nearest);
 }
