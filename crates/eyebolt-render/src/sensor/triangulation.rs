@@ -1,0 +1,276 @@
+//! Depth from the angle between two rays: structured light and stereo.
+
+use super::exposure::{Exposure, Lateral, Readout};
+use super::field::{Field, Layers};
+use super::specimen::Specimen;
+use super::window::{APART_PX, Disparities, Neighbour, matches, near_edges, nearest_in_front};
+use crate::view::View;
+use eyebolt_geometry::PinholeCamera;
+use nalgebra::{Point2, Vector3};
+use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+
+/// The figures of a camera that finds a pattern, or the image of a second lens, in its own image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangulation {
+    /// Where the second lens or the projector is along x of the camera's frame, metres. To the
+    /// right: its shadows lie to the left of things.
+    pub baseline_m: f64,
+    /// Whether what the second lens does not see, or the projector does not light, has no depth;
+    /// else the depth of what is seen is guessed rightly.
+    pub shadows: bool,
+    /// Whether the image of the second lens ends where the camera's does, so that a band along the
+    /// left edge has no depth.
+    pub overlap_only: bool,
+    /// Columns along the right edge that never have depth.
+    pub blind_columns: u32,
+    /// Disparity is told in multiples of this, pixels; 0 if it is continuous.
+    pub step_px: f64,
+    /// Error of depth.
+    pub axial: AxialNoise,
+    /// Lag at which the error of pixels is half correlated, pixels.
+    pub half_correlation_px: f64,
+    /// Share of the variance of all errors that is the same in every frame of a scene at rest.
+    pub fixed_share: f64,
+    /// Change of the disparity at which that part of the error is half correlated, pixels.
+    pub half_correlation_disparity_px: f64,
+    /// Error of where edges are.
+    pub lateral: LateralNoise,
+    /// What is compared.
+    pub window: Window,
+    /// How far things grow in the image over what lies behind them, pixels.
+    pub fattening_px: f64,
+    /// How wide a rim without depth lies around that, pixels.
+    pub rim_px: f64,
+    /// Angle between surface normal and ray, mean over the window, beyond which there is no depth,
+    /// radians.
+    pub largest_angle_rad: f64,
+}
+
+/// Standard deviation of depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxialNoise {
+    /// That of disparity is the same everywhere.
+    Disparity {
+        /// Pixels.
+        rms_px: f64,
+    },
+    /// `floor_m + growth_per_m (z - from_m)^2 + grazing z^-1/2 a^2 / (pi/2 - a)^2` at depth z and
+    /// angle a between normal and ray; the rounding of disparity is part of it.
+    Depth {
+        /// Metres.
+        floor_m: f64,
+        /// 1/m.
+        growth_per_m: f64,
+        /// Metres.
+        from_m: f64,
+        /// m^3/2.
+        grazing: f64,
+    },
+}
+
+/// Standard deviation of where edges are: `base_px + grazing_px a / (pi/2 - a)` at an angle a
+/// between normal and ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LateralNoise {
+    /// Pixels.
+    pub base_px: f64,
+    /// Pixels.
+    pub grazing_px: f64,
+    /// Lag along an edge at which its displacement is half correlated, pixels.
+    pub half_correlation_px: f64,
+}
+
+/// The window that is compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// It is `2 half_px + 1` pixels wide and high.
+    pub half_px: usize,
+    /// Share of the window that must have the disparity of its middle for a match.
+    pub least_share: f64,
+}
+
+/// By how much the share of a window that is needed varies, and the largest angle: a few of the
+/// pixels of a window, and what a hand's breadth of a curved surface turns.
+const SHARE_SPREAD: f32 = 0.05;
+const ANGLE_SPREAD_RAD: f32 = 0.05;
+
+impl AxialNoise {
+    /// Standard deviation of disparity before it is rounded to `step_px`, pixels.
+    fn disparity_px(&self, depth_m: f64, angle_rad: f64, product: f64, step_px: f64) -> f64 {
+        match *self {
+            Self::Disparity { rms_px } => rms_px,
+            Self::Depth { floor_m, growth_per_m, from_m, grazing } => {
+                let grown_m = growth_per_m * (depth_m - from_m).powi(2);
+                let grazing_m = grazing * odds(angle_rad).powi(2) / depth_m.sqrt();
+                let total_px = (floor_m + grown_m + grazing_m) * product / (depth_m * depth_m);
+                // The variance of rounding adds to that of noise (Sheppard).
+                (total_px.powi(2) - step_px.powi(2) / 12.0).max(0.0).sqrt()
+            }
+        }
+    }
+}
+
+/// `angle / (pi/2 - angle)`; large but finite at a right angle.
+fn odds(angle_rad: f64) -> f64 {
+    angle_rad / (FRAC_PI_2 - angle_rad).max(1e-3)
+}
+
+/// What each pixel would see if nothing but its own ray mattered.
+struct Geometry {
+    /// Disparity; 0 where nothing is seen.
+    disparity_px: Vec<f32>,
+    slope: Vec<[f32; 2]>,
+    angle_rad: Vec<f32>,
+}
+
+/// What `specimen` with `figures` measures of `view` of `camera`, where `second_sees` tells what
+/// is in sight of the second lens.
+pub fn expose(
+    figures: &Triangulation,
+    view: &View,
+    camera: &PinholeCamera,
+    second_sees: &[bool],
+    specimen: &Specimen,
+) -> Exposure {
+    let size = [view.width, view.height];
+    let product = camera.fx() * figures.baseline_m;
+    let geometry = Geometry::new(view, camera, product, specimen);
+    let lit = geometry.in_sight(figures, size, second_sees);
+    let image = Disparities { size, px: &lit, slope: &geometry.slope };
+    let (value, from) = fatten(figures, &image);
+    let matches = matches(&image, &geometry.angle_rad, figures.window.half_px);
+    let confidence = from.par_iter().map(|at| {
+        let share = (matches[*at].share - figures.window.least_share as f32) / SHARE_SPREAD;
+        let angle = figures.largest_angle_rad as f32 - matches[*at].angle_rad;
+        share.min(angle / ANGLE_SPREAD_RAD)
+    });
+    let sigma = value.par_iter().zip(&from).map(|(px, at)| {
+        let depth_m = product / f64::from(*px);
+        let angle = f64::from(matches[*at].angle_rad);
+        figures.axial.disparity_px(depth_m, angle, product, figures.step_px) as f32
+    });
+    let exposure = Exposure {
+        size,
+        readout: Readout::Disparity { product: product as f32, step_px: figures.step_px as f32 },
+        range_m: [0.0, f32::INFINITY],
+        confidence: confidence.collect(),
+        sigma: sigma.collect(),
+        value,
+        lateral: None,
+        half_px: figures.half_correlation_px as f32,
+    };
+    let exposure = with_lateral(exposure, figures, &geometry.angle_rad, specimen);
+    with_fixed_error(exposure, figures, specimen)
+}
+
+impl Geometry {
+    fn new(view: &View, camera: &PinholeCamera, product: f64, specimen: &Specimen) -> Self {
+        let disparity = |depth_m: &f32| {
+            let depth_m = specimen.depth_m(*depth_m);
+            if depth_m > 0.0 { (product / f64::from(depth_m)) as f32 } else { 0.0 }
+        };
+        let disparity_px: Vec<f32> = view.depth_m.par_iter().map(disparity).collect();
+        let facing = (0..disparity_px.len()).into_par_iter().map(|at| {
+            let (u, v) = (at % view.width, at / view.width);
+            let normal = Vector3::from(view.normal_in_camera[at]).cast::<f64>();
+            let ray = camera.ray(&Point2::new(u as f64, v as f64)).unwrap_or_default();
+            let cosine = (-normal.dot(&ray) / ray.norm()).clamp(0.0, 1.0);
+            // A plane's inverse depth is `normal . ray / distance`: affine in the pixel.
+            let scale = f64::from(disparity_px[at]) / normal.dot(&ray).min(-1e-6);
+            let slope = [normal.x / camera.fx(), normal.y / camera.fy()];
+            (slope.map(|by_px| (scale * by_px) as f32), cosine.acos() as f32)
+        });
+        let (slope, angle_rad) = facing.unzip();
+        Self { disparity_px, slope, angle_rad }
+    }
+
+    /// The disparities of what can be matched at all.
+    fn in_sight(
+        &self,
+        figures: &Triangulation,
+        size: [usize; 2],
+        second_sees: &[bool],
+    ) -> Vec<f32> {
+        let seeing = size[0].saturating_sub(figures.blind_columns as usize);
+        let pixels = self.disparity_px.par_iter().zip(second_sees).enumerate();
+        pixels
+            .map(|(at, (px, seen))| {
+                let u = at % size[0];
+                let beside = figures.overlap_only && (u as f32) - px < -0.5;
+                let hidden = figures.shadows && !seen;
+                if hidden || beside || u >= seeing { 0.0 } else { *px }
+            })
+            .collect()
+    }
+}
+
+/// Disparity that is found at each pixel, and the pixel that it belongs to.
+fn fatten(figures: &Triangulation, image: &Disparities<'_>) -> (Vec<f32>, Vec<usize>) {
+    let reach_px = figures.fattening_px + figures.rim_px;
+    if reach_px == 0.0 {
+        return (image.px.to_vec(), (0..image.px.len()).collect());
+    }
+    let found = |(here, nearest): (usize, &Option<Neighbour>)| match nearest {
+        None => (image.px[here], here),
+        Some(front) if f64::from(front.distance_px) <= figures.fattening_px => {
+            (image.px[front.at], front.at)
+        }
+        Some(_) => (0.0, here),
+    };
+    nearest_in_front(image, reach_px).par_iter().enumerate().map(found).unzip()
+}
+
+/// Displaces edges.
+fn with_lateral(
+    exposure: Exposure,
+    figures: &Triangulation,
+    angle_rad: &[f32],
+    specimen: &Specimen,
+) -> Exposure {
+    let LateralNoise { base_px, grazing_px, half_correlation_px } = figures.lateral;
+    if base_px == 0.0 {
+        return exposure;
+    }
+    let reach = (3.0 * base_px).ceil() as usize;
+    let near = near_edges(exposure.size, &exposure.value, APART_PX, reach);
+    let sigma_px = near.iter().zip(angle_rad).map(|(near, angle)| {
+        let total_px = base_px + grazing_px * odds(f64::from(*angle));
+        // Pixels are whole: their rounding adds to the noise.
+        let sigma_px = (total_px.powi(2) - 1.0 / 12.0).max(0.0).sqrt();
+        if *near { sigma_px.min(reach as f64) as f32 } else { 0.0 }
+    });
+    let half_px = half_correlation_px as f32;
+    let field = |place| Field::new(specimen.random.at(place), exposure.size, half_px);
+    let lateral = Lateral {
+        sigma_px: sigma_px.collect(),
+        half_px,
+        apart: APART_PX,
+        fixed: [field(1), field(2)],
+        fixed_share: figures.fixed_share as f32,
+    };
+    Exposure { lateral: Some(lateral), ..exposure }
+}
+
+/// Takes the part of the noise that all frames have alike out of the noise and into the values.
+fn with_fixed_error(
+    mut exposure: Exposure,
+    figures: &Triangulation,
+    specimen: &Specimen,
+) -> Exposure {
+    let [fresh, fixed] = [1.0 - figures.fixed_share, figures.fixed_share].map(|s| s.sqrt() as f32);
+    let layers = Layers::new(
+        specimen.random.at(0),
+        exposure.size,
+        figures.half_correlation_px as f32,
+        figures.half_correlation_disparity_px as f32,
+        &exposure.value,
+    );
+    let width = exposure.size[0];
+    let pixels = exposure.value.par_iter_mut().zip(exposure.sigma.par_iter_mut()).enumerate();
+    pixels.filter(|(_, (value, _))| **value > 0.0).for_each(|(at, (value, sigma))| {
+        *value += *sigma * fixed * layers.at(at % width, at / width, *value);
+        *sigma *= fresh;
+    });
+    exposure
+}
