@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Options of `eyebolt convert`.
 ///
 /// A bag becomes an MCAP with the messages that a calibration needs: depth, intrinsics, joint states,
-/// robot description, static transforms, and masks and colour where there are any. A folder holds the
+/// robot description, static transforms, and backgrounds, masks and colour where there are any. A folder holds the
 /// frames at rest only.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -95,9 +95,11 @@ fn check(arguments: &Arguments, kind: Kind) -> Result<()> {
 /// With --force, a folder is replaced if there is nothing in it but a recording of ours.
 fn check_replaceable(folder: &Path) -> Result<()> {
     let known = |name: &str| {
-        let frame = ["depth_", "cloud_", "mask_", "color_"].iter().any(|p| name.starts_with(p));
-        matches!(name, "recording.toml" | "camera_info.yaml" | "joints.csv" | "robot.urdf")
-            || (frame && (name.ends_with(".png") || name.ends_with(".npy")))
+        let images = ["depth_", "cloud_", "mask_", "color_", "background_"];
+        let image = images.iter().any(|prefix| name.starts_with(prefix));
+        const OTHERS: [&str; 5] =
+            ["recording.toml", "camera_info.yaml", "joints.csv", "robot.urdf", "truth.json"];
+        OTHERS.contains(&name) || (image && (name.ends_with(".png") || name.ends_with(".npy")))
     };
     let failed = || format!("{}: cannot be listed. Name another place", folder.display());
     for entry in std::fs::read_dir(folder).with_context(failed)? {

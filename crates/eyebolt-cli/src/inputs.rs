@@ -41,6 +41,9 @@ pub struct BagArguments {
     /// Masks of the arm
     #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     mask_topic: Option<String>,
+    /// Depth images of the scene without the robot
+    #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
+    background_topic: Option<String>,
     /// Frame of the points of a PointCloud2, where name and points do not tell
     #[arg(long, help_heading = BAGS, value_name = "FRAME")]
     cloud_frame: Option<CloudFrameName>,
@@ -77,6 +80,7 @@ impl BagArguments {
             description_topic: self.description_topic.clone(),
             color_topic: self.color_topic.clone(),
             mask_topic: self.mask_topic.clone(),
+            background_topic: self.background_topic.clone(),
             cloud_frame: self.cloud_frame.map(|frame| match frame {
                 CloudFrameName::Optical => CloudFrame::Optical,
                 CloudFrameName::Body => CloudFrame::Body,

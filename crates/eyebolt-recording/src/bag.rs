@@ -13,6 +13,7 @@ pub(crate) use open::{Bag, Locator};
 pub use open::{BagKind, is_bag};
 
 use crate::error::RecordingError;
+use std::collections::BTreeMap;
 
 /// A stream of messages of one type.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -94,6 +95,11 @@ pub(crate) trait BagFile: std::fmt::Debug + Send + Sync {
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError>;
+
+    /// The metadata record called `name`, in files of a kind that has such.
+    fn metadata(&self, _name: &str) -> Result<Option<BTreeMap<String, String>>, RecordingError> {
+        Ok(None)
+    }
 
     /// The bytes of the message at `place`, which a scan of this file told.
     fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError>;

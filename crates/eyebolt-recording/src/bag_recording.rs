@@ -3,6 +3,7 @@
 //! One pass over the bag finds the topics, the frames of depth and the path of the joints; frames
 //! are read when asked for. Memory grows by some bytes a frame, not by its pixels.
 
+mod backgrounds;
 mod check;
 mod choose;
 mod clouds;
@@ -30,7 +31,7 @@ use crate::message::WireProblem;
 use choose::Chosen;
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_robot::JointPositions;
-use opening::{known_cloud_frame, robot};
+use opening::{known_background, known_cloud_frame, robot};
 use pair::{Kept, Paired};
 use scan::{Content, FrameEntry, Scan, TopicScan};
 use std::path::{Path, PathBuf};
@@ -49,6 +50,8 @@ pub struct BagRecording {
     /// Masks and colour pictures that can be read, by their stamps.
     masks: Vec<FrameEntry>,
     colors: Vec<FrameEntry>,
+    /// Those that can be read, by their stamps.
+    backgrounds: Vec<FrameEntry>,
     clock_offset: Option<ClockOffset>,
     cloud_frame: Option<CloudFrame>,
     partial: bool,
@@ -66,7 +69,7 @@ impl BagRecording {
     pub fn open(path: &Path, options: &BagOptions) -> Result<Self, RecordingError> {
         let bag = Bag::open(path, options.scratch())?;
         let scan = Scan::new(&bag, options.partial)?;
-        let chosen = Chosen::new(path, &scan, options)?;
+        let chosen = Chosen::new(path, &scan, options, known_background(&bag))?;
         let mut recording = Self {
             path: path.to_path_buf(),
             camera: None,
@@ -75,6 +78,7 @@ impl BagRecording {
             names: Vec::new(),
             masks: by_stamp(&scan, chosen.mask),
             colors: by_stamp(&scan, chosen.color),
+            backgrounds: backgrounds::backgrounds(&scan, chosen.background),
             clock_offset: None,
             cloud_frame: options.cloud_frame.or_else(|| known_cloud_frame(&bag)),
             partial: options.partial,
@@ -85,6 +89,7 @@ impl BagRecording {
         };
         recording.check_topics()?;
         recording.camera = recording.read_camera(options)?;
+        recording.check_background()?;
         recording.pair(options.max_motion)?;
         recording.check_joints()?;
         recording.find_cloud_frame()?;

@@ -14,8 +14,22 @@ const FIELD: &str = "depth";
 /// What to do with a frame in which the camera saw nothing.
 pub(crate) const LEAVE_OUT: &str = "Leave this frame out of the recording, or record it again";
 
-/// Reads a depth image of the size of `camera`, stored in `unit`.
+/// Reads a depth image of the size of `camera`, stored in `unit`, that saw something.
 pub(crate) fn read_depth(
+    path: &Path,
+    extension: &str,
+    unit: Unit,
+    camera: Expected<'_>,
+) -> Result<DepthImage, RecordingError> {
+    let image = read_any_depth(path, extension, unit, camera)?;
+    match image.depth_m().iter().any(|depth| *depth > 0.0) {
+        true => Ok(image),
+        false => Err(RecordingError::invalid(path, FIELD, "no pixel has depth", LEAVE_OUT)),
+    }
+}
+
+/// As [`read_depth`], also of images that saw nothing.
+pub(crate) fn read_any_depth(
     path: &Path,
     extension: &str,
     unit: Unit,
@@ -27,13 +41,9 @@ pub(crate) fn read_depth(
     };
     check_unit(path, FIELD, unit, depth_m.iter().copied())?;
     let (width, height, _) = camera;
-    let image = DepthImage::new(width, height, depth_m).map_err(|error| {
+    DepthImage::new(width, height, depth_m).map_err(|error| {
         RecordingError::invalid(path, FIELD, error.to_string(), "Store the whole image")
-    })?;
-    match image.depth_m().iter().any(|depth| *depth > 0.0) {
-        true => Ok(image),
-        false => Err(RecordingError::invalid(path, FIELD, "no pixel has depth", LEAVE_OUT)),
-    }
+    })
 }
 
 fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {

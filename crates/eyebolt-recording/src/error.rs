@@ -39,6 +39,16 @@ pub enum RecordingError {
         /// Topic and time of the frame.
         field: String,
     },
+    /// There is no background of that index.
+    #[error("{path}: background index {index} does not exist. The recording has {count} backgrounds, counted from 0", path = path.display())]
+    NoSuchBackground {
+        /// The recording.
+        path: PathBuf,
+        /// The index asked for.
+        index: usize,
+        /// How many backgrounds there are.
+        count: usize,
+    },
     /// There is no frame of that index.
     #[error("{path}: frame index {index} does not exist. The recording has {count} frames, counted from 0", path = path.display())]
     NoSuchFrame {
@@ -81,7 +91,9 @@ impl RecordingError {
         match self {
             Self::Invalid { problem, .. } => problem.clone(),
             Self::Read { cause, .. } => cause.to_string(),
-            Self::NoSuchFrame { .. } | Self::EmptyFrame { .. } => self.to_string(),
+            Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } | Self::EmptyFrame { .. } => {
+                self.to_string()
+            }
         }
     }
 
@@ -91,6 +103,7 @@ impl RecordingError {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
             | Self::EmptyFrame { path, .. }
+            | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => *path = told.to_path_buf(),
         }
         self
@@ -102,6 +115,7 @@ impl RecordingError {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
             | Self::EmptyFrame { path, .. }
+            | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => path,
         }
     }

@@ -1,5 +1,6 @@
 //! A recording that is a folder of files with a `recording.toml`.
 
+mod background;
 mod read;
 
 use crate::camera_info::CameraInfo;
@@ -20,6 +21,8 @@ pub struct Folder {
     camera: Option<CameraInfo>,
     names: Vec<String>,
     joints: Joints,
+    /// Names of the backgrounds.
+    backgrounds: Vec<String>,
 }
 
 impl Folder {
@@ -31,26 +34,18 @@ impl Folder {
     /// # Errors
     ///
     /// A description that is not understood, a camera or a table of joints that cannot be read, no
-    /// frames, or a frame without its joints, mask or colour picture where these are named.
+    /// frames, no backgrounds where these are named, or a frame without its joints, mask or colour picture where these are named.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let path = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
         let manifest = Manifest::read(&path)?;
         let camera = manifest.camera_info.as_deref().map(CameraInfo::read).transpose()?;
         let names = manifest.range.frames(manifest.range_field())?;
         if names.is_empty() {
-            return Err(RecordingError::invalid(
-                &path,
-                manifest.range_field(),
-                format!(
-                    "no file in {} is called \"{}\"",
-                    manifest.range.folder().display(),
-                    manifest.range.file_name()
-                ),
-                "Correct the pattern, or copy the files there",
-            ));
+            return Err(none_fits(&path, manifest.range_field(), &manifest.range));
         }
+        let backgrounds = background::names(&manifest, &names)?;
         let joints = Joints::open(&manifest, &names)?;
-        let folder = Self { manifest, camera, names, joints };
+        let folder = Self { manifest, camera, names, joints, backgrounds };
         folder.check_files()?;
         Ok(folder)
     }
@@ -116,4 +111,10 @@ impl Folder {
         check("frames.mask", manifest.mask.as_ref(), rest)?;
         check("frames.color", manifest.color.as_ref(), rest)
     }
+}
+
+fn none_fits(path: &Path, field: &str, files: &Pattern) -> RecordingError {
+    let problem =
+        format!("no file in {} is called \"{}\"", files.folder().display(), files.file_name());
+    RecordingError::invalid(path, field, problem, "Correct the pattern, or copy the files there")
 }

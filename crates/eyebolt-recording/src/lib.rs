@@ -15,6 +15,10 @@
 //! joints = "joint_states_{}.npy"     # radians; or CSV or JSON
 //! joint_names = ["joint_1", "joint_2"] # in the order of NPY; optional with CSV and JSON
 //!
+//! [background]                       # optional: the scene without the arm
+//! depth = "background_{}.npy"        # or 16-bit PNG
+//! # depth_unit = "mm"                # where it is not that of the frames
+//!
 //! [robot]                            # optional
 //! urdf = "robot.urdf"
 //! base = "base_link"
@@ -57,6 +61,7 @@ mod npy;
 mod pattern;
 mod png_image;
 mod recording;
+mod truth;
 mod unit_check;
 mod write;
 
@@ -76,7 +81,8 @@ pub use frame::{Frame, Range};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
 pub use recording::Recording;
+pub use truth::{CameraMoved, Truth, read_truth};
 pub use write::{
-    McapWriter, WriteError, WriteProgress, WriteRobot, write_folder, write_mcap,
-    write_static_transforms,
+    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteProgress, WriteRobot,
+    write_folder, write_mcap, write_static_transforms,
 };

@@ -81,6 +81,13 @@ pub(crate) enum JointFiles {
     Table(PathBuf),
 }
 
+/// Depth images of the scene without the robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Background {
+    pub(crate) files: Pattern,
+    pub(crate) unit: Unit,
+}
+
 /// A `recording.toml` that makes sense; paths are joined to its folder.
 #[derive(Clone, Debug)]
 pub(crate) struct Manifest {
@@ -94,8 +101,13 @@ pub(crate) struct Manifest {
     pub(crate) joints: JointFiles,
     /// In the order of the numbers of an NPY file, which has no names of its own.
     pub(crate) joint_names: Option<Vec<String>>,
+    pub(crate) background: Option<Background>,
     pub(crate) robot: RobotSection,
 }
+
+const CAMERA: &str = "name the camera_info.yaml of the depth camera";
+const BACKGROUND_CAMERA: &str =
+    "name the camera_info.yaml of the background, which is a depth image";
 
 impl Manifest {
     /// Reads the `recording.toml` at `path`.
@@ -116,21 +128,26 @@ impl Manifest {
         let (kind, range) = source.range(frames)?;
         let info = raw.camera.info.map(|info| root.join(info));
         if kind == RangeKind::Depth && info.is_none() {
-            return Err(
-                source.missing("camera.info", "name the camera_info.yaml of the depth camera")
-            );
+            return Err(source.missing("camera.info", CAMERA));
         }
         let joints = source.joints(frames)?;
+        let unit = source.unit("frames.depth_unit", frames.depth_unit.as_deref())?;
+        let background = raw.background.as_ref().map(|raw| source.background(raw, unit));
+        let background = background.transpose()?;
+        if background.is_some() && info.is_none() {
+            return Err(source.missing("camera.info", BACKGROUND_CAMERA));
+        }
         Ok(Self {
             path: path.to_path_buf(),
             camera_info: info,
             kind,
             range,
-            unit: source.unit(frames)?,
+            unit,
             color: source.pattern("color", frames.color.as_deref(), &["png"])?,
             mask: source.pattern("mask", frames.mask.as_deref(), &["png"])?,
             joint_names: source.joint_names(frames, &joints)?,
             joints,
+            background,
             robot: RobotSection {
                 urdf: raw.robot.urdf.map(|urdf| root.join(urdf)),
                 description: None,

@@ -7,7 +7,7 @@ use crate::error::RecordingError;
 use crate::folder::{Folder, MANIFEST};
 use crate::frame::Frame;
 use crate::manifest::RobotSection;
-use eyebolt_geometry::PinholeCamera;
+use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
 use std::path::{Path, PathBuf};
 
@@ -109,6 +109,35 @@ impl Recording {
         match self {
             Self::Folder(folder) => folder.read_color(index),
             Self::Bag(bag) => bag.read_color(index),
+        }
+    }
+
+    /// Number of depth images of the scene without the robot, or with the robot out of view.
+    pub fn background_count(&self) -> usize {
+        match self {
+            Self::Folder(folder) => folder.background_count(),
+            Self::Bag(bag) => bag.background_count(),
+        }
+    }
+
+    /// Reads background `index`, counted from 0: depth of the camera's size in metres, 0 where there
+    /// is none. There may be none at all, where the scene is out of range.
+    ///
+    /// # Errors
+    ///
+    /// No such background, or one that cannot be read or is not of the camera's size.
+    pub fn read_background(&self, index: usize) -> Result<DepthImage, RecordingError> {
+        match self {
+            Self::Folder(folder) => folder.read_background(index),
+            Self::Bag(bag) => bag.read_background(index),
+        }
+    }
+
+    /// Whether backgrounds are stored in whole millimetres.
+    pub(crate) fn backgrounds_in_millimetres(&self) -> bool {
+        match self {
+            Self::Folder(folder) => folder.backgrounds_in_millimetres(),
+            Self::Bag(bag) => bag.backgrounds_in_millimetres(),
         }
     }
 

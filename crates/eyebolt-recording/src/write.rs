@@ -5,15 +5,20 @@ mod definitions;
 mod folder;
 mod from_frames;
 mod mcap;
+mod messages;
 mod npy;
 mod png;
+mod recording_writer;
 
 pub(crate) use folder::check_names;
 pub use folder::write_folder;
 pub use mcap::{McapWriter, write_static_transforms};
+pub(crate) use recording_writer::BACKGROUND_TOPIC;
+pub use recording_writer::{RecordingInfo, RecordingWriter};
 
 use crate::error::RecordingError;
 use crate::recording::Recording;
+use crate::truth;
 use std::io::{self, Seek, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -32,6 +37,16 @@ pub enum WriteError {
         path: PathBuf,
         /// What the operating system said. Part of the text, so no `source` of the error.
         cause: io::Error,
+    },
+    /// What was to be written fits no recording.
+    #[error("{what} at {:.3} s: {problem}", *stamp_ns as f64 * 1e-9)]
+    Unfit {
+        /// What it was to be.
+        what: &'static str,
+        /// Its stamp.
+        stamp_ns: i64,
+        /// Why it does not fit.
+        problem: String,
     },
     /// Whoever was told of the progress wanted it to end.
     #[error("stopped; nothing was written")]
@@ -53,11 +68,12 @@ pub struct WriteRobot {
 }
 
 /// Writes `recording` to `output` as MCAP with ROS 2 messages: depth, intrinsics, joint states, the
-/// robot, masks and pictures where there are any, static transforms.
+/// robot, backgrounds, masks and pictures where there are any, static transforms.
 ///
 /// Of a bag, all messages of these topics are copied with their times and names; of a folder, every
-/// frame becomes a message stamped a second after the one before. One metadata record called
-/// `eyebolt` names base and end-effector.
+/// background and every frame becomes a message stamped a second after the one before. One metadata
+/// record called `eyebolt` names base and end-effector. The truth of a simulated recording goes with
+/// it as it is.
 ///
 /// # Errors
 ///
@@ -68,12 +84,17 @@ pub fn write_mcap(
     output: impl Write + Seek,
     progress: &mut WriteProgress<'_>,
 ) -> Result<(), WriteError> {
+    let metadata = from_frames::metadata(recording, robot);
+    let truth = truth::text_of(recording)?;
+    let Recording::Bag(bag) = recording else {
+        return from_frames::write(recording, robot, metadata, truth.as_deref(), output, progress);
+    };
     let mut writer = McapWriter::new(output)?;
-    writer.metadata(&from_frames::metadata(recording, robot))?;
-    match recording {
-        Recording::Bag(bag) => copy::bag(bag, robot, &mut writer, progress)?,
-        Recording::Folder(_) => from_frames::write(recording, robot, &mut writer, progress)?,
+    writer.metadata(crate::METADATA_NAME, &metadata)?;
+    if let Some(json) = truth {
+        writer.metadata(truth::RECORD, &truth::record(&json))?;
     }
+    copy::bag(bag, robot, &mut writer, progress)?;
     writer.finish()
 }
 

@@ -114,22 +114,6 @@ impl McapFile {
         }
     }
 
-    /// The metadata record called `name`, the last one where there are several.
-    ///
-    /// Damage is passed over: whoever scans the messages hears of it.
-    pub(crate) fn metadata(
-        &self,
-        name: &str,
-    ) -> Result<Option<BTreeMap<String, String>>, RecordingError> {
-        let mut found = None;
-        let mut visit = |_: RecordHead, body: &[u8]| {
-            found = records::metadata(body, name).ok().flatten().or(found.take());
-            Ok(())
-        };
-        self.records(&[mcap::records::op::METADATA], &mut visit, &mut |_| Ok(()))?;
-        Ok(found)
-    }
-
     /// Hands the records with one of `opcodes` before the summary to `visit`.
     fn records(
         &self,
@@ -216,6 +200,19 @@ impl BagFile for McapFile {
         };
         let mut outer = |error| (*damage.borrow_mut())(error);
         self.records(&[SCHEMA, CHANNEL, MESSAGE, CHUNK], &mut visit, &mut outer)
+    }
+
+    /// The metadata record called `name`, the last one where there are several.
+    ///
+    /// Damage is passed over: whoever scans the messages hears of it.
+    fn metadata(&self, name: &str) -> Result<Option<BTreeMap<String, String>>, RecordingError> {
+        let mut found = None;
+        let mut visit = |_: RecordHead, body: &[u8]| {
+            found = records::metadata(body, name).ok().flatten().or(found.take());
+            Ok(())
+        };
+        self.records(&[mcap::records::op::METADATA], &mut visit, &mut |_| Ok(()))?;
+        Ok(found)
     }
 
     fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {

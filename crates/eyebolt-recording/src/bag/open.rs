@@ -111,15 +111,13 @@ impl Bag {
             return Err(RecordingError::invalid(path, "kind of file", problem, remedy));
         };
         self.kind = kind;
-        Ok(match kind {
-            BagKind::Mcap => {
-                let file = McapFile::open(path)?;
-                self.metadata = file.metadata(crate::METADATA_NAME)?.or(self.metadata.take());
-                Box::new(file)
-            }
+        let file: Box<dyn BagFile> = match kind {
+            BagKind::Mcap => Box::new(McapFile::open(path)?),
             BagKind::Sqlite => Box::new(SqliteFile::open(path)?),
             BagKind::Ros1 => Box::new(Ros1Bag::open(path)?),
-        })
+        };
+        self.metadata = file.metadata(crate::METADATA_NAME)?.or(self.metadata.take());
+        Ok(file)
     }
 
     /// The files, under the paths by which people know them.
@@ -134,6 +132,19 @@ impl Bag {
     /// What eyebolt wrote into the bag about itself, if it wrote the bag.
     pub(crate) fn metadata(&self) -> Option<&BTreeMap<String, String>> {
         self.metadata.as_ref()
+    }
+
+    /// The metadata record called `name`, of the last file that has one.
+    pub(crate) fn record(
+        &self,
+        name: &str,
+    ) -> Result<Option<BTreeMap<String, String>>, RecordingError> {
+        let mut found = None;
+        for (file, path) in &self.files {
+            let record = file.metadata(name).map_err(|error| error.told_of(path))?;
+            found = record.or(found);
+        }
+        Ok(found)
     }
 
     /// Hands every message with its number among the files to `each`; see [`BagFile::scan`].

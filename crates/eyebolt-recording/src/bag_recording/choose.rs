@@ -3,6 +3,7 @@
 use super::BagOptions;
 use super::scan::{Content, PictureKind, Scan, TopicScan};
 use crate::error::RecordingError;
+use crate::message::types;
 use std::path::Path;
 
 /// Numbers of topics in a scan.
@@ -14,17 +15,21 @@ pub(super) struct Chosen {
     pub(super) description: Option<usize>,
     pub(super) color: Option<usize>,
     pub(super) mask: Option<usize>,
+    pub(super) background: Option<usize>,
 }
 
 impl Chosen {
-    /// The topics that `options` name, else the only ones that can be meant.
+    /// The topics that `options` name, else the only ones that can be meant; `known_background` is
+    /// what the bag itself names so.
     pub(super) fn new(
         path: &Path,
         scan: &Scan,
         options: &BagOptions,
+        known_background: Option<&str>,
     ) -> Result<Self, RecordingError> {
         let choice = Choice { path, scan };
-        let range = choice.range(options.depth_topic.as_deref())?;
+        let background = choice.background(options, known_background)?;
+        let range = choice.range(options.depth_topic.as_deref(), background)?;
         let joints = choice.one(
             "--joint-topic",
             "joint states (sensor_msgs/JointState)",
@@ -57,12 +62,12 @@ impl Chosen {
                     && matches!(&topic.content, Content::Text(text) if !text.is_empty())
             },
         )?;
-        Ok(Self { range, camera_info, joints, description, color, mask })
+        Ok(Self { range, camera_info, joints, description, color, mask, background })
     }
 
     /// The topics, with what each is to the recording.
     pub(super) fn roles(&self) -> impl Iterator<Item = (usize, &'static str)> + use<> {
-        let Self { range, camera_info, joints, description, color, mask } = *self;
+        let Self { range, camera_info, joints, description, color, mask, background } = *self;
         let roles = [
             (Some(range), "depth"),
             (Some(joints), "joints"),
@@ -70,6 +75,7 @@ impl Chosen {
             (description, "robot"),
             (color, COLOR),
             (mask, "mask"),
+            (background, "background"),
         ];
         roles.into_iter().filter_map(|(number, role)| Some((number?, role)))
     }
@@ -121,6 +127,13 @@ fn rank(topic: &TopicScan) -> Option<u8> {
     }
 }
 
+const BACKGROUND: &str = "--background-topic";
+const BACKGROUNDS: &str = "depth images (Image in 16UC1 or 32FC1, or compressedDepth)";
+
+fn is_depth_image(topic: &TopicScan) -> bool {
+    topic.message_type != types::CLOUD && rank(topic).is_some()
+}
+
 /// Name of the compressed form of a topic, below it.
 const COMPRESSED: &str = "/compressedDepth";
 
@@ -140,8 +153,37 @@ struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    fn range(&self, wanted: Option<&str>) -> Result<usize, RecordingError> {
+    /// The topic of depth of the scene without the robot: the one that a flag names, else the one
+    /// that the bag does, unless a flag names that as the depth of the recording.
+    fn background(
+        &self,
+        options: &BagOptions,
+        known: Option<&str>,
+    ) -> Result<Option<usize>, RecordingError> {
+        let depth = options.depth_topic.as_deref();
+        if let Some(wanted) = options.background_topic.as_deref() {
+            if depth == Some(wanted) {
+                let problem = format!("{wanted} is the topic of the depth too");
+                let remedy = "Give two topics, or leave one of the flags out";
+                return Err(RecordingError::invalid(self.path, BACKGROUND, problem, remedy));
+            }
+            return self.one(BACKGROUND, BACKGROUNDS, Some(wanted), &is_depth_image);
+        }
+        let Some(known) = known.filter(|known| depth != Some(*known)) else { return Ok(None) };
+        let found =
+            self.one("metadata: background_topic", BACKGROUNDS, Some(known), &is_depth_image);
+        // Its messages may be what got lost.
+        if options.partial { Ok(found.unwrap_or(None)) } else { found }
+    }
+
+    fn range(
+        &self,
+        wanted: Option<&str>,
+        background: Option<usize>,
+    ) -> Result<usize, RecordingError> {
         let what = "depth (Image in 16UC1 or 32FC1, compressedDepth, or PointCloud2)";
+        let background = background.and_then(|number| Some(&self.scan.topics.get(number)?.name));
+        let is_no_depth = |name: &String| is_no_depth(name) || Some(name) == background;
         // A camera's depth image is often recorded beside the cloud that was made of it.
         let topics = || self.scan.topics.iter().filter(|topic| !is_no_depth(&topic.name));
         let best = topics().filter_map(rank).min();

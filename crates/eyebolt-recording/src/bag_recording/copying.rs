@@ -1,14 +1,20 @@
 //! What a writer of recordings asks of a bag.
 
 use super::BagRecording;
-use super::scan::{Content, PictureKind, is_static};
-use crate::bag::{Message, Topic};
+use super::scan::is_static;
+use crate::bag::{Bag, Message, Topic};
 use crate::error::RecordingError;
+use crate::write::BACKGROUND_TOPIC;
 use eyebolt_geometry::PinholeCamera;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 impl BagRecording {
+    /// The messages, and what else is in the files.
+    pub(crate) fn messages(&self) -> &Bag {
+        &self.bag
+    }
+
     /// Where the bag is.
     pub(crate) fn path(&self) -> &Path {
         &self.path
@@ -59,18 +65,17 @@ impl BagRecording {
 
     /// Whether depth is stored in whole millimetres.
     pub(crate) fn in_millimetres(&self) -> bool {
-        match &self.range_topic().content {
-            Content::Pictures(pictures) => match &pictures.kind {
-                PictureKind::Image { encoding, .. } => encoding != "32FC1",
-                _ => false,
-            },
-            _ => false,
-        }
+        self.range_topic().is_in_millimetres()
     }
 
     /// What is known of the recording that no message says.
     pub(crate) fn metadata(&self) -> BTreeMap<String, String> {
         let mut known = self.bag.metadata().cloned().unwrap_or_default();
+        // Its messages may have got lost, or a flag may have named it.
+        known.remove(BACKGROUND_TOPIC);
+        if let Some(number) = self.chosen.background {
+            known.insert(BACKGROUND_TOPIC.to_owned(), self.topic(number).name.clone());
+        }
         if let Some(frame) = self.cloud_frame {
             known.insert("cloud_frame".to_owned(), frame.name().to_owned());
         }

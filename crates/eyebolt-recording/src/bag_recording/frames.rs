@@ -62,37 +62,46 @@ impl BagRecording {
     /// Depth image or cloud of a frame, in the optical frame.
     fn range(&self, entry: &FrameEntry) -> Result<Range, RecordingError> {
         let topic = self.range_topic();
-        let bytes = self.bag.read(entry.locator)?;
-        let wrong = |problem: WireProblem| self.unreadable_frame(topic, entry, &problem);
-        let mut reader = WireReader::new(&topic.encoding, &bytes).map_err(wrong)?;
-        let (size, depth_m, in_millimetres) = match topic.message_type.as_str() {
-            types::CLOUD => {
-                let points = CloudMessage::read(&mut reader)
-                    .and_then(|cloud| Ok((cloud.points()?, (cloud.width, cloud.height))));
-                let (points, size) = points.map_err(wrong)?;
-                return self.cloud(entry, points, size).map(Range::Cloud);
-            }
-            types::IMAGE => {
-                let image = ImageMessage::read(&mut reader).map_err(wrong)?;
-                let (depth_m, in_millimetres) = image.depth_m().map_err(wrong)?;
-                ((image.width, image.height), depth_m, in_millimetres)
-            }
-            _ => {
-                let depth = CompressedImageMessage::read(&mut reader).and_then(|m| m.depth());
-                let depth = depth.map_err(wrong)?;
-                ((depth.width, depth.height), depth.depth_m, depth.in_millimetres)
-            }
-        };
-        let unit = if in_millimetres { Unit::Millimetres } else { Unit::Metres };
-        self.check_depth(entry, size, &depth_m, unit)?;
-        let (width, height) = size;
-        let image = DepthImage::new(width, height, depth_m)
-            .map_err(|error| wrong(WireProblem::new("data", error.to_string())))?;
+        if topic.message_type == types::CLOUD {
+            let bytes = self.bag.read(entry.locator)?;
+            let cloud = WireReader::new(&topic.encoding, &bytes)
+                .and_then(|mut reader| CloudMessage::read(&mut reader))
+                .and_then(|cloud| Ok((cloud.points()?, (cloud.width, cloud.height))));
+            let (points, size) =
+                cloud.map_err(|problem| self.unreadable_frame(topic, entry, &problem))?;
+            return self.cloud(entry, points, size).map(Range::Cloud);
+        }
+        let image = self.depth_image(topic, entry)?;
         // Of most kinds the scan saw that.
         match image.depth_m().iter().any(|depth| *depth > 0.0) {
             true => Ok(Range::Depth(image)),
             false => Err(self.empty_frame(entry)),
         }
+    }
+
+    /// A depth image of a topic, whether or not it saw anything.
+    pub(super) fn depth_image(
+        &self,
+        topic: &TopicScan,
+        entry: &FrameEntry,
+    ) -> Result<DepthImage, RecordingError> {
+        let bytes = self.bag.read(entry.locator)?;
+        let wrong = |problem: WireProblem| self.unreadable_frame(topic, entry, &problem);
+        let mut reader = WireReader::new(&topic.encoding, &bytes).map_err(wrong)?;
+        let (size, depth_m, in_millimetres) = if topic.message_type == types::IMAGE {
+            let image = ImageMessage::read(&mut reader).map_err(wrong)?;
+            let (depth_m, in_millimetres) = image.depth_m().map_err(wrong)?;
+            ((image.width, image.height), depth_m, in_millimetres)
+        } else {
+            let depth = CompressedImageMessage::read(&mut reader).and_then(|m| m.depth());
+            let depth = depth.map_err(wrong)?;
+            ((depth.width, depth.height), depth.depth_m, depth.in_millimetres)
+        };
+        let unit = if in_millimetres { Unit::Millimetres } else { Unit::Metres };
+        self.check_depth(topic, entry, size, &depth_m, unit)?;
+        let (width, height) = size;
+        DepthImage::new(width, height, depth_m)
+            .map_err(|error| wrong(WireProblem::new("data", error.to_string())))
     }
 
     fn empty_frame(&self, entry: &FrameEntry) -> RecordingError {
@@ -111,12 +120,12 @@ impl BagRecording {
 
     fn check_depth(
         &self,
+        topic: &TopicScan,
         entry: &FrameEntry,
         (width, height): (u32, u32),
         depth_m: &[f32],
         unit: Unit,
     ) -> Result<(), RecordingError> {
-        let topic = self.range_topic();
         let field = frame_field(topic, entry);
         let camera = self.camera().filter(|c| (c.width(), c.height()) != (width, height));
         if let Some(camera) = camera {

@@ -10,7 +10,7 @@ use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, WireReader, types};
-use crate::write::check_names;
+use crate::write::{BACKGROUND_TOPIC, check_names};
 
 impl BagRecording {
     /// Whether the frames are of a rectified picture. By ROS's convention, these have a word for it
@@ -98,6 +98,11 @@ impl BagRecording {
 /// The frame of clouds that a flag once said, where eyebolt wrote the bag.
 pub(super) fn known_cloud_frame(bag: &Bag) -> Option<CloudFrame> {
     CloudFrame::named(bag.metadata()?.get("cloud_frame")?)
+}
+
+/// The topic of the backgrounds, where eyebolt wrote the bag.
+pub(super) fn known_background(bag: &Bag) -> Option<&str> {
+    bag.metadata()?.get(BACKGROUND_TOPIC).map(String::as_str)
 }
 
 /// How the clocks of depth and joints differ: by the motion, else by the times of recording.

@@ -20,6 +20,8 @@ pub struct BagOptions {
     pub color_topic: Option<String>,
     /// Topic of masks of the arm.
     pub mask_topic: Option<String>,
+    /// Topic of depth images of the scene without the robot.
+    pub background_topic: Option<String>,
     /// Frame of the points of clouds.
     pub cloud_frame: Option<CloudFrame>,
     /// How far a joint may move while a frame is taken, radians or metres; otherwise the data tell.

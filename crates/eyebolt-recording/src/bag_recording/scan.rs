@@ -199,6 +199,12 @@ impl TopicScan {
         }
     }
 
+    /// Whether its pictures are depth in whole millimetres.
+    pub(super) fn is_in_millimetres(&self) -> bool {
+        let Content::Pictures(pictures) = &self.content else { return false };
+        matches!(&pictures.kind, PictureKind::Image { encoding, .. } if encoding != "32FC1")
+    }
+
     /// How many stamps are before one that came earlier, and the first such pair, nanoseconds.
     pub(super) fn backward(&self) -> (u64, Option<(i64, i64)>) {
         match &self.content {

@@ -126,11 +126,11 @@ impl Folder {
     }
 
     /// Path of the camera info, for messages about its size.
-    fn camera_text(&self) -> String {
+    pub(super) fn camera_text(&self) -> String {
         self.manifest.camera_info.as_deref().unwrap_or(Path::new("")).display().to_string()
     }
 
-    fn camera_size<'a>(&self, info: &'a str) -> Option<Expected<'a>> {
+    pub(super) fn camera_size<'a>(&self, info: &'a str) -> Option<Expected<'a>> {
         self.camera().map(|camera| (camera.width(), camera.height(), info))
     }
 }

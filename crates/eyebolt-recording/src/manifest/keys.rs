@@ -5,12 +5,13 @@ use serde::de::DeserializeOwned;
 use std::path::Path;
 
 /// Sections with their keys.
-const KNOWN: [(&str, &[&str]); 3] = [
+const KNOWN: [(&str, &[&str]); 4] = [
     ("camera", &["info"]),
     (
         "frames",
         &["depth", "cloud", "depth_unit", "cloud_frame", "color", "mask", "joints", "joint_names"],
     ),
+    ("background", &["depth", "depth_unit"]),
     ("robot", &["urdf", "base", "end_effector"]),
 ];
 

@@ -8,6 +8,7 @@ pub(super) struct Raw {
     #[serde(default)]
     pub(super) camera: RawCamera,
     pub(super) frames: RawFrames,
+    pub(super) background: Option<RawBackground>,
     #[serde(default)]
     pub(super) robot: RawRobot,
 }
@@ -29,6 +30,13 @@ pub(super) struct RawFrames {
     pub(super) mask: Option<String>,
     pub(super) joints: Option<String>,
     pub(super) joint_names: Option<Vec<String>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBackground {
+    pub(super) depth: Option<String>,
+    pub(super) depth_unit: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

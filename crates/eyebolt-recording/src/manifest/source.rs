@@ -1,7 +1,7 @@
 //! From the spelled fields to their meaning.
 
-use super::raw::RawFrames;
-use super::{CloudFrame, JointFiles, RangeKind, Unit};
+use super::raw::{RawBackground, RawFrames};
+use super::{Background, CloudFrame, JointFiles, RangeKind, Unit};
 use crate::error::RecordingError;
 use crate::pattern::{Pattern, extension};
 use std::path::Path;
@@ -27,8 +27,34 @@ impl Source<'_> {
         text: Option<&str>,
         extensions: &[&str],
     ) -> Result<Option<Pattern>, RecordingError> {
-        let field = format!("frames.{key}");
-        text.map(|t| Pattern::parse(self.path, self.root, &field, t, extensions)).transpose()
+        self.files(&format!("frames.{key}"), text, extensions)
+    }
+
+    fn files(
+        &self,
+        field: &str,
+        text: Option<&str>,
+        extensions: &[&str],
+    ) -> Result<Option<Pattern>, RecordingError> {
+        text.map(|t| Pattern::parse(self.path, self.root, field, t, extensions)).transpose()
+    }
+
+    /// The backgrounds, in the unit of the frames unless they have their own.
+    pub(super) fn background(
+        &self,
+        raw: &RawBackground,
+        unit: Unit,
+    ) -> Result<Background, RecordingError> {
+        let files = self.files("background.depth", raw.depth.as_deref(), &["npy", "png"])?;
+        let what = "the files of depth images without the robot, as in \"background_{}.npy\"";
+        let own = raw.depth_unit.as_deref();
+        Ok(Background {
+            files: files.ok_or_else(|| self.missing("background.depth", what))?,
+            unit: match own {
+                Some(_) => self.unit("background.depth_unit", own)?,
+                None => unit,
+            },
+        })
     }
 
     pub(super) fn range(&self, frames: &RawFrames) -> Result<(RangeKind, Pattern), RecordingError> {
@@ -63,10 +89,9 @@ impl Source<'_> {
         }
     }
 
-    pub(super) fn unit(&self, frames: &RawFrames) -> Result<Unit, RecordingError> {
-        let field = "frames.depth_unit";
+    pub(super) fn unit(&self, field: &str, text: Option<&str>) -> Result<Unit, RecordingError> {
         let two = "\"m\" (metres) or \"mm\" (millimetres)";
-        match frames.depth_unit.as_deref() {
+        match text {
             Some("m") => Ok(Unit::Metres),
             Some("mm") => Ok(Unit::Millimetres),
             Some(other) => {

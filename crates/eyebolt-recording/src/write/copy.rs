@@ -1,7 +1,8 @@
 //! Messages of a bag into another.
 
-use super::from_frames::{DESCRIPTION, description};
 use super::mcap::McapWriter;
+use super::messages;
+use super::recording_writer::DESCRIPTION;
 use super::{WriteError, WriteProgress, WriteRobot, tell};
 use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
@@ -67,7 +68,7 @@ impl Extra<'_> {
         if let Some(urdf) = &self.robot.urdf
             && !self.bag.has_description()
         {
-            description(writer, urdf, time_ns)?;
+            writer.write(DESCRIPTION, types::STRING, time_ns, &messages::description(urdf))?;
         }
         if let Some((camera, topic)) = self.bag.given_camera() {
             let frame_id = self.bag.camera_frame_id().unwrap_or_default();

@@ -8,7 +8,8 @@ use crate::folder::MANIFEST;
 use crate::frame::{Frame, Range};
 use crate::message::{CameraInfoMessage, Header};
 use crate::recording::Recording;
-use eyebolt_geometry::PinholeCamera;
+use crate::truth;
+use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -20,7 +21,8 @@ const JOINTS: &str = "joints.csv";
 const URDF: &str = "robot.urdf";
 
 /// Writes the frames of `recording` that take part to the folder `folder`, which must exist:
-/// depth as PNG (whole millimetres) or NPY, clouds as NPY, the positions of the joints as one CSV.
+/// depth as PNG (whole millimetres) or NPY, clouds as NPY, the positions of the joints as one CSV,
+/// the backgrounds, and the truth of a simulated recording as it is.
 ///
 /// # Errors
 ///
@@ -32,10 +34,12 @@ pub fn write_folder(
     progress: &mut WriteProgress<'_>,
 ) -> Result<(), WriteError> {
     let names = recording.frame_names();
+    let backgrounds = recording.background_count();
+    let total = backgrounds + names.len();
     let mut output = Output { folder, in_millimetres: recording.in_millimetres(), joints: None };
     let mut found = Found::default();
     for (index, name) in names.iter().enumerate() {
-        tell(progress, index, names.len())?;
+        tell(progress, index, total)?;
         let frame = match recording.read_frame(index) {
             Err(error) if recording.may_leave_out(&error) => continue,
             read => read?,
@@ -53,6 +57,16 @@ pub fn write_folder(
         }
         found.add(&frame, color.is_some());
     }
+    for index in 0..backgrounds {
+        tell(progress, names.len() + index, total)?;
+        let background = match recording.read_background(index) {
+            Err(error) if recording.may_leave_out(&error) => continue,
+            read => read?,
+        };
+        let name = format!("background_{index}");
+        output.depth(&name, &background, recording.backgrounds_in_millimetres())?;
+        found.backgrounds += 1;
+    }
     output.finish_joints()?;
     if let Some(camera) = recording.camera() {
         let text = camera_info(camera, recording.camera_frame_id());
@@ -61,9 +75,12 @@ pub fn write_folder(
     if let Some(urdf) = &robot.urdf {
         output.file(URDF, urdf.as_bytes())?;
     }
+    if let Some(json) = truth::text_of(recording)? {
+        output.file(truth::FILE, json.as_bytes())?;
+    }
     // Last: a folder without it is no recording.
     output.file(MANIFEST, manifest(recording, robot, found).as_bytes())?;
-    tell(progress, names.len(), names.len())
+    tell(progress, total, total)
 }
 
 /// What frames have; masks and pictures count only if every frame has one.
@@ -73,6 +90,7 @@ struct Found {
     frames: usize,
     masks: usize,
     colors: usize,
+    backgrounds: usize,
 }
 
 impl Found {
@@ -109,18 +127,24 @@ impl Output<'_> {
         self.file(name, &bytes)
     }
 
+    fn depth(
+        &self,
+        name: &str,
+        depth: &DepthImage,
+        in_millimetres: bool,
+    ) -> Result<(), WriteError> {
+        if in_millimetres {
+            let png = png::depth(depth.width(), depth.height(), depth.depth_m());
+            return self.picture(&format!("{name}.png"), png);
+        }
+        let shape = [depth.height() as usize, depth.width() as usize];
+        self.file(&format!("{name}.npy"), &npy(&shape, depth.depth_m().iter().copied()))
+    }
+
     fn range(&self, frame: &Frame) -> Result<(), WriteError> {
         let name = &frame.name;
         match &frame.range {
-            Range::Depth(depth) if self.in_millimetres => {
-                let png = png::depth(depth.width(), depth.height(), depth.depth_m());
-                self.picture(&format!("depth_{name}.png"), png)
-            }
-            Range::Depth(depth) => {
-                let shape = [depth.height() as usize, depth.width() as usize];
-                let bytes = npy(&shape, depth.depth_m().iter().copied());
-                self.file(&format!("depth_{name}.npy"), &bytes)
-            }
+            Range::Depth(depth) => self.depth(&format!("depth_{name}"), depth, self.in_millimetres),
             Range::Cloud(cloud) => {
                 let grid = cloud.grid().map(|(w, h)| vec![h as usize, w as usize, 3]);
                 let shape = grid.unwrap_or_else(|| vec![cloud.points().len(), 3]);
@@ -204,6 +228,12 @@ fn manifest(recording: &Recording, robot: &WriteRobot, found: Found) -> String {
     }
     if found.colors == found.frames {
         line("color = \"color_{}.png\"".to_owned());
+    }
+    if found.backgrounds > 0 {
+        let (ending, unit) =
+            if recording.backgrounds_in_millimetres() { ("png", "mm") } else { ("npy", "m") };
+        line(format!("\n[background]\ndepth = \"background_{{}}.{ending}\""));
+        line(format!("depth_unit = {}", quoted(unit)));
     }
     let known = recording.robot();
     let base = robot.base.as_ref().or(known.base.as_ref());

@@ -1,35 +1,22 @@
 //! Frames of a folder as messages.
 
-use super::mcap::McapWriter;
+use super::recording_writer::{Described, RecordingWriter, SCHEMA};
 use super::{WriteError, WriteProgress, WriteRobot, tell};
 use crate::bag_recording::BagRecording;
-use crate::camera_info::camera_info_message;
-use crate::frame::{Frame, Range};
-use crate::message::{
-    CloudMessage, Header, ImageMessage, JointStateMessage, PointField, WireWriter, types,
-};
+use crate::frame::Range;
 use crate::recording::Recording;
-use eyebolt_geometry::{Cloud, DepthImage};
-use eyebolt_robot::JointPositions;
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
-const DEPTH: &str = "/camera/depth/image_raw";
-const CLOUD: &str = "/camera/depth/points";
-const CAMERA_INFO: &str = "/camera/depth/camera_info";
-const MASK: &str = "/camera/depth/mask";
-const COLOR: &str = "/camera/color/image_raw";
-const JOINTS: &str = "/joint_states";
-pub(super) const DESCRIPTION: &str = "/robot_description";
 /// The frame of recordings that name none.
 const OPTICAL_FRAME: &str = "camera_depth_optical_frame";
-/// From one frame to the next; the first is not at zero, which would mean "no stamp".
+/// From one image to the next; the first is not at zero, which would mean "no stamp".
 const STEP_NS: i64 = 1_000_000_000;
 
 /// What eyebolt knows of a recording that no message says.
 pub(super) fn metadata(recording: &Recording, robot: &WriteRobot) -> BTreeMap<String, String> {
     let mut values = recording.bag().map(BagRecording::metadata).unwrap_or_default();
-    values.insert("schema".to_owned(), "eyebolt.recording/1".to_owned());
+    values.insert("schema".to_owned(), SCHEMA.to_owned());
     let known = recording.robot();
     let mut add = |key: &str, value: Option<&String>| {
         if let Some(value) = value {
@@ -45,114 +32,60 @@ pub(super) fn metadata(recording: &Recording, robot: &WriteRobot) -> BTreeMap<St
     values
 }
 
-/// Writes every frame of `recording`.
-pub(super) fn write<W: Write + Seek>(
+/// Writes every background and every frame of `recording`, which is a folder, and its truth.
+pub(super) fn write(
     recording: &Recording,
     robot: &WriteRobot,
-    writer: &mut McapWriter<W>,
+    metadata: BTreeMap<String, String>,
+    truth: Option<&str>,
+    output: impl Write + Seek,
     progress: &mut WriteProgress<'_>,
 ) -> Result<(), WriteError> {
-    let frame_id = recording.camera_frame_id().unwrap_or(OPTICAL_FRAME);
-    if let Some(urdf) = &robot.urdf {
-        description(writer, urdf, STEP_NS)?;
+    let described = Described {
+        camera: recording.camera(),
+        camera_frame_id: recording.camera_frame_id().unwrap_or(OPTICAL_FRAME),
+        in_millimetres: recording.in_millimetres(),
+        urdf: robot.urdf.as_deref(),
+        metadata,
+    };
+    let mut writer = RecordingWriter::described(output, described)?;
+    if let Some(json) = truth {
+        writer.truth_text(json)?;
     }
-    let total = recording.frame_names().len();
-    for (index, stamp_ns) in (0..total).zip((1..).map(|second| second * STEP_NS)) {
+    let (backgrounds, frames) = (recording.background_count(), recording.frame_names().len());
+    let total = backgrounds + frames;
+    let mut stamps = (1..).map(|second| second * STEP_NS);
+    for (index, stamp_ns) in (0..backgrounds).zip(&mut stamps) {
         tell(progress, index, total)?;
-        let header = Header { stamp_ns, frame_id };
-        let frame = recording.read_frame(index)?;
-        if let Some(camera) = recording.camera() {
-            let data = camera_info_message(camera, header).write();
-            writer.write(CAMERA_INFO, types::CAMERA_INFO, stamp_ns, &data)?;
-        }
-        // Joints first: whoever plays the recording poses the arm before it sees it.
-        writer.write(JOINTS, types::JOINT_STATE, stamp_ns, &joints(&frame.joints, stamp_ns))?;
-        range(writer, header, &frame, recording.in_millimetres())?;
-        if let Some(mask) = &frame.mask {
-            let grey: Vec<u8> = mask.as_slice().iter().map(|set| 255 * u8::from(*set)).collect();
-            let image = image(header, (mask.width(), mask.height()), "mono8", 1, &grey);
-            writer.write(MASK, types::IMAGE, stamp_ns, &image.write())?;
-        }
-        if let Some(color) = recording.read_color(index)? {
-            let size = (color.width, color.height);
-            let image = image(header, size, "rgb8", 3, color.rgb.as_flattened());
-            writer.write(COLOR, types::IMAGE, stamp_ns, &image.write())?;
-        }
+        let background = recording.read_background(index)?;
+        writer.background_in(stamp_ns, &background, recording.backgrounds_in_millimetres())?;
     }
-    tell(progress, total, total)
+    for (index, stamp_ns) in (0..frames).zip(&mut stamps) {
+        tell(progress, backgrounds + index, total)?;
+        one(recording, index, stamp_ns, &mut writer)?;
+    }
+    tell(progress, total, total)?;
+    writer.finish()
 }
 
-pub(super) fn description<W: Write + Seek>(
-    writer: &mut McapWriter<W>,
-    urdf: &str,
-    log_time_ns: i64,
+fn one<W: Write + Seek>(
+    recording: &Recording,
+    index: usize,
+    stamp_ns: i64,
+    writer: &mut RecordingWriter<W>,
 ) -> Result<(), WriteError> {
-    let mut message = WireWriter::new();
-    message.string(urdf);
-    writer.write(DESCRIPTION, types::STRING, log_time_ns, &message.finish())
-}
-
-fn joints(joints: &JointPositions, stamp_ns: i64) -> Vec<u8> {
-    let (names, positions) = joints.iter().unzip();
-    JointStateMessage { header: Header { stamp_ns, frame_id: "" }, names, positions }.write()
-}
-
-fn range<W: Write + Seek>(
-    writer: &mut McapWriter<W>,
-    header: Header<'_>,
-    frame: &Frame,
-    in_millimetres: bool,
-) -> Result<(), WriteError> {
+    let frame = recording.read_frame(index)?;
+    // Joints first: whoever plays the recording poses the arm before it sees it.
+    writer.joints(stamp_ns, &frame.joints)?;
     match &frame.range {
-        Range::Depth(depth) => {
-            let data = depth_message(header, depth, in_millimetres);
-            writer.write(DEPTH, types::IMAGE, header.stamp_ns, &data)
-        }
-        Range::Cloud(cloud) => {
-            let data = cloud_message(header, cloud);
-            writer.write(CLOUD, types::CLOUD, header.stamp_ns, &data)
-        }
+        Range::Depth(depth) => writer.depth(stamp_ns, depth)?,
+        Range::Cloud(cloud) => writer.cloud(stamp_ns, cloud)?,
     }
-}
-
-fn depth_message(header: Header<'_>, depth: &DepthImage, in_millimetres: bool) -> Vec<u8> {
-    let size = (depth.width(), depth.height());
-    if in_millimetres {
-        let values = depth.depth_m().iter().map(|z| (1e3 * z).round() as u16);
-        let data: Vec<u8> = values.flat_map(u16::to_le_bytes).collect();
-        return image(header, size, "16UC1", 2, &data).write();
+    if let Some(mask) = &frame.mask {
+        writer.mask(stamp_ns, mask)?;
     }
-    let data: Vec<u8> = depth.depth_m().iter().flat_map(|z| z.to_le_bytes()).collect();
-    image(header, size, "32FC1", 4, &data).write()
-}
-
-fn image<'a>(
-    header: Header<'a>,
-    (width, height): (u32, u32),
-    encoding: &'a str,
-    pixel_size: u32,
-    data: &'a [u8],
-) -> ImageMessage<'a> {
-    let step = width.saturating_mul(pixel_size);
-    ImageMessage { header, height, width, encoding, big_endian: false, step, data }
-}
-
-fn cloud_message(header: Header<'_>, cloud: &Cloud) -> Vec<u8> {
-    const POINT: u32 = 12;
-    let count = u32::try_from(cloud.points().len()).unwrap_or(u32::MAX);
-    let (width, height) = cloud.grid().unwrap_or((count, 1));
-    let field = |name, offset| PointField { name, offset, datatype: 7, count: 1 };
-    let bytes = cloud.points().iter().flat_map(|p| [p.x, p.y, p.z]).flat_map(f32::to_le_bytes);
-    CloudMessage {
-        header,
-        height,
-        width,
-        fields: vec![field("x", 0), field("y", 4), field("z", 8)],
-        big_endian: false,
-        point_step: POINT,
-        row_step: width.saturating_mul(POINT),
-        data: &bytes.collect::<Vec<_>>(),
-        is_dense: cloud.count_valid() == cloud.points().len(),
+    if let Some(color) = recording.read_color(index)? {
+        writer.color(stamp_ns, &color)?;
     }
-    .write()
+    Ok(())
 }

@@ -42,9 +42,13 @@ impl<W: Write + Seek> McapWriter<W> {
         Ok(Self { writer, channels: BTreeMap::new() })
     }
 
-    /// Writes a metadata record called `eyebolt`.
-    pub(crate) fn metadata(&mut self, values: &BTreeMap<String, String>) -> Result<(), WriteError> {
-        let metadata = Metadata { name: crate::METADATA_NAME.to_owned(), metadata: values.clone() };
+    /// Writes a metadata record called `name`.
+    pub(crate) fn metadata(
+        &mut self,
+        name: &str,
+        values: &BTreeMap<String, String>,
+    ) -> Result<(), WriteError> {
+        let metadata = Metadata { name: name.to_owned(), metadata: values.clone() };
         self.writer.write_metadata(&metadata).map_err(failed)
     }
 
