@@ -1,11 +1,11 @@
 //! `eyebolt calibrate`.
 
 use crate::Ending;
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive};
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
 use crate::output::{self, Destination};
 use crate::progress::Bar;
 use crate::summary;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
@@ -60,10 +60,7 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
-        pool.build_global().context("cannot start the threads")?;
-    }
+    use_threads(arguments.threads)?;
     let destination = Destination::new(&arguments.output, arguments.force)?;
     let bar = Bar::new();
     let recording = arguments.recording.open()?;

@@ -3,15 +3,11 @@
 use crate::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
-use crate::progress::Waiting;
+use crate::progress::{Counting, Waiting};
 use anyhow::{Context, Result, anyhow, bail};
 use eyebolt_recording::{Recording, WriteError, write_folder, write_mcap};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::BufWriter;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Options of `eyebolt convert`.
 ///
@@ -41,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     drop(waiting);
     recording.sources().iter().try_for_each(|source| refuse_source(output, source))?;
     let robot = arguments.robot.to_write(&recording)?;
-    let bar = Bar::new()?;
+    let bar = Counting::new()?;
     match kind {
         Kind::Mcap => output::write_through(output, arguments.force, |file| {
             let writer = BufWriter::new(file);
@@ -53,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
                 .map_err(|error| named(error, output))
         })?,
     }
-    bar.bar.finish_and_clear();
+    drop(bar);
     output::say(&summary(&recording, kind, output, robot.urdf.is_some()));
     Ok(Ending::Done)
 }
@@ -129,7 +125,7 @@ fn refuse_source(output: &Path, source: &Path) -> Result<()> {
 }
 
 /// The error, with the name that the user gave instead of a temporary one.
-fn named(error: WriteError, output: &Path) -> anyhow::Error {
+pub fn named(error: WriteError, output: &Path) -> anyhow::Error {
     match error {
         WriteError::File { cause, .. } => anyhow!(
             "{}: cannot write: {cause}. Make room there, or name another place",
@@ -156,32 +152,4 @@ fn summary(recording: &Recording, kind: Kind, output: &Path, robot: bool) -> Str
         text += "\nthere is no robot description in it: give --robot arm.urdf to add one";
     }
     text
-}
-
-/// Shows how far the work is, and ends it on Ctrl-C.
-struct Bar {
-    bar: ProgressBar,
-    stopped: Arc<AtomicBool>,
-}
-
-impl Bar {
-    fn new() -> Result<Self> {
-        let stopped = Arc::new(AtomicBool::new(false));
-        let seen = Arc::clone(&stopped);
-        ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed))
-            .context("cannot listen for Ctrl-C")?;
-        let bar = ProgressBar::new(0);
-        let style = ProgressStyle::with_template("{bar:24} {percent}% {elapsed}");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Ok(Self { bar, stopped })
-    }
-
-    fn tell(&self, done: usize, total: usize) -> ControlFlow<()> {
-        self.bar.set_length(total as u64);
-        self.bar.set_position(done as u64);
-        match self.stopped.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    }
 }

@@ -217,3 +217,10 @@ impl CacheArguments {
         self.cache.clone().or_else(user).map_or(LinkCache::disabled(), LinkCache::new)
     }
 }
+
+/// Uses that many threads, or one for each core.
+pub fn use_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+    pool.build_global().context("cannot start the threads")
+}

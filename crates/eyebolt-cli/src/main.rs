@@ -2,11 +2,13 @@
 
 mod calibrate;
 mod convert;
+mod evaluate;
 mod export;
 mod info;
 mod inputs;
 mod output;
 mod progress;
+mod simulate;
 mod summary;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +32,10 @@ enum Command {
     Info(info::Arguments),
     /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
     Convert(convert::Arguments),
+    /// Record an arm and a depth camera that are not there, to try everything without a robot
+    Simulate(simulate::Arguments),
+    /// Say how far a calibration of a simulated recording is from the truth
+    Evaluate(evaluate::Arguments),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
 }
@@ -47,6 +53,8 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };
     match ending {

@@ -1,9 +1,13 @@
 //! What a person sees while a command works, and how long each stage took.
 
+use anyhow::{Context, Result};
 use eyebolt::progress::{Progress, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// A progress bar on standard error (nothing if that is not a terminal) that keeps time.
@@ -76,5 +80,41 @@ impl Waiting {
 impl Drop for Waiting {
     fn drop(&mut self) {
         self.0.finish_and_clear();
+    }
+}
+
+/// Shows how far the work is, and ends it on Ctrl-C.
+pub struct Counting {
+    bar: ProgressBar,
+    stopped: Arc<AtomicBool>,
+}
+
+impl Counting {
+    /// Listens for Ctrl-C.
+    pub fn new() -> Result<Self> {
+        let stopped = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&stopped);
+        ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed))
+            .context("cannot listen for Ctrl-C")?;
+        let bar = ProgressBar::new(0);
+        let style = ProgressStyle::with_template("{bar:24} {percent}% {elapsed}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Ok(Self { bar, stopped })
+    }
+
+    /// How much of how much is done; whether to go on.
+    pub fn tell(&self, done: usize, total: usize) -> ControlFlow<()> {
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
+        match self.stopped.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}
+
+impl Drop for Counting {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }

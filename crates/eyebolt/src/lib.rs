@@ -2,6 +2,7 @@
 
 pub mod answer;
 pub mod calibrate;
+pub mod evaluate;
 pub mod export;
 pub mod info;
 pub mod label;
@@ -11,4 +12,6 @@ pub mod progress;
 pub mod record;
 pub mod refine;
 pub mod report;
+pub mod robots;
 pub mod session;
+pub mod simulate;

@@ -7,6 +7,7 @@ mod spread;
 
 pub use limits::OutsideLimits;
 pub(crate) use limits::WorstOutside;
+pub(crate) use spread::most_spread;
 
 use crate::session::{Configuration, Session};
 use eyebolt_geometry::{Base, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform};
@@ -126,7 +127,7 @@ pub fn open(
         .iter()
         .map(|group| links.iter().filter_map(|l| group.first.base_from_links[*l]).collect())
         .collect();
-    let chosen = spread::most_spread(&postures, options.most_configurations);
+    let chosen = most_spread(&postures, options.most_configurations);
     let eye = eye::find(recording, &first_frame(recording, &groups[chosen[0]].frames)?)?;
     let reader = Reader { recording, eye: &eye, rays: RayTable::new(&eye.camera), options };
     let configurations = chosen.par_iter().map(|group| {
@@ -319,7 +320,7 @@ fn check_mask(frame: &str, mask: Option<&Mask>, camera: &PinholeCamera) -> Resul
 }
 
 /// Shapes of those of `links` that have one, and which these are.
-fn shapes(
+pub(crate) fn shapes(
     arm: &Arm,
     links: Vec<usize>,
     cache: &LinkCache,

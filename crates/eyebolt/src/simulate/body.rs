@@ -108,7 +108,9 @@ impl<'a> ArmBody<'a> {
         let (low, high) = solid.bounds();
         let margin = nalgebra::Vector3::repeat(2.0 * CLEARANCE_M);
         let (low, high) = (low - margin, high + margin);
-        !self.surface(posture).any(|p| (0..3).all(|axis| (low[axis]..high[axis]).contains(&p[axis])))
+        !self
+            .surface(posture)
+            .any(|p| (0..3).all(|axis| (low[axis]..high[axis]).contains(&p[axis])))
     }
 
     /// Points all over the arm, base frame.
@@ -147,7 +149,9 @@ impl<'a> ArmBody<'a> {
         let near = |of: usize, to: usize, to_from_of: Transform<Link, Link>| {
             let (of, field) = (&self.model.links()[of].model, &self.model.links()[to].model.field);
             let to_from_of = to_from_of.isometry().cast::<f32>();
-            of.surface.iter().any(|s| field.sample(&(to_from_of * s.point)).distance_m < CLEARANCE_M)
+            of.surface
+                .iter()
+                .any(|s| field.sample(&(to_from_of * s.point)).distance_m < CLEARANCE_M)
         };
         near(a, b, in_b * *pose(a)) || near(b, a, in_a * *pose(b))
     }

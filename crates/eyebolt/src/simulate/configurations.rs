@@ -96,7 +96,11 @@ fn shows_hand(
     let is_hand = |link: u8| body.is_end_effector[usize::from(link)];
     let hand: Vec<PosedMesh<'_>> = meshes.iter().filter(|m| is_hand(m.link)).copied().collect();
     let inside = hand.iter().all(|posed| {
-        posed.mesh.vertices.iter().all(|vertex| in_image(onlooker, &posed.camera_from_link.point(&vertex.cast())))
+        posed
+            .mesh
+            .vertices
+            .iter()
+            .all(|vertex| in_image(onlooker, &posed.camera_from_link.point(&vertex.cast())))
     });
     if !inside {
         return false;

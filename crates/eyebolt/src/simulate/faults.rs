@@ -1,7 +1,7 @@
 //! What goes wrong in laboratories, on purpose.
 
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_render::Random;
+use eyebolt_render::{IntrinsicsError, Random};
 use eyebolt_robot::{Arm, JointKind, JointPositions};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
@@ -61,6 +61,11 @@ impl Faults {
         ];
         let there = rows.into_iter().filter(|(_, value, none)| value != none);
         there.map(|(name, value, _)| (name.to_owned(), value.into())).collect()
+    }
+
+    /// How the recording states the intrinsics.
+    pub(super) fn intrinsics(&self) -> IntrinsicsError {
+        IntrinsicsError { focal_scale: [self.focal_scale; 2], centre_px: self.centre_px }
     }
 
     /// The camera's pose after it was bumped, if it is.

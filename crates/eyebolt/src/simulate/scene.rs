@@ -122,7 +122,8 @@ fn person(random: &mut Random) -> Solid {
         around + std::f64::consts::PI + random.between(-0.6, 0.6),
     );
     // Heights and breadths as shares of the stature (Drillis and Contini, 1966).
-    let at = |x: f64, y: f64, z: f64| Point3::from(feet + facing * (height * Vector3::new(x, y, z)));
+    let at =
+        |x: f64, y: f64, z: f64| Point3::from(feet + facing * (height * Vector3::new(x, y, z)));
     let limb = |from: Point3<f64>, to: Point3<f64>, radius: f64| rod(&from, &to, height * radius);
     let mut bodies = vec![
         limb(at(0.0, 0.0, 0.56), at(0.0, 0.0, 0.76), 0.085),

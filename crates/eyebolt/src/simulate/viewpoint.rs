@@ -89,12 +89,7 @@ pub struct Ranges {
 impl Default for Ranges {
     /// On a tripod before or beside the table, or on a shelf above it.
     fn default() -> Self {
-        Self {
-            distance_m: [0.95, 1.5],
-            azimuth: [-1.9, 1.9],
-            elevation: [0.15, 0.85],
-            askew: 0.14,
-        }
+        Self { distance_m: [0.95, 1.5], azimuth: [-1.9, 1.9], elevation: [0.15, 0.85], askew: 0.14 }
     }
 }
 

@@ -1,0 +1,106 @@
+//! `eyebolt simulate`.
+
+mod flags;
+
+use crate::Ending;
+use crate::convert;
+use crate::inputs::{CacheArguments, use_threads};
+use crate::output;
+use crate::progress::{Counting, Waiting};
+use anyhow::Result;
+use eyebolt::simulate::{Scenario, SimulateError, plan};
+use eyebolt_render::Sensor;
+use flags::{CameraArguments, FaultArguments, RobotArguments};
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+/// Options of `eyebolt simulate`.
+///
+/// The recording is an ordinary one, for `eyebolt calibrate` and everybody else. Where the camera
+/// really was is in a record of its own, which only `eyebolt evaluate` reads.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// Depth camera
+    #[arg(long, default_value = "kinect-v1", value_parser = flags::sensor())]
+    sensor: Sensor,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// How many configurations the arm rests in
+    #[arg(long, value_name = "COUNT", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    configurations: u16,
+    /// Frames of each configuration
+    #[arg(long, value_name = "COUNT", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=10_000))]
+    frames: u16,
+    /// Frames taken while the arm moves from one configuration to the next
+    #[arg(long, value_name = "COUNT", default_value_t = 0)]
+    moving_frames: u16,
+    /// Frames without the arm, taken before
+    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    backgrounds: u16,
+    /// Things that stand about: boxes, bottles, balls, cables, people
+    #[arg(long, value_name = "COUNT", default_value_t = 8)]
+    clutter: u16,
+    /// Seed of all random choices; the same seed gives the same bytes on any number of threads
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    faults: FaultArguments,
+    /// Where to write the recording (MCAP)
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Replace an existing file
+    #[arg(long)]
+    force: bool,
+    /// Threads to use; otherwise one for each core
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArguments,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    use_threads(arguments.threads)?;
+    output::refuse_existing(&arguments.output, arguments.force)?;
+    let robot = arguments.robot.read()?;
+    let scenario = Scenario {
+        arm: &robot.arm,
+        urdf: &robot.urdf,
+        sensor: arguments.sensor,
+        viewpoint: arguments.camera.viewpoint()?,
+        configurations: usize::from(arguments.configurations),
+        frames: usize::from(arguments.frames),
+        moving_frames: usize::from(arguments.moving_frames),
+        backgrounds: usize::from(arguments.backgrounds),
+        clutter: usize::from(arguments.clutter),
+        faults: arguments.faults.faults()?,
+        seed: arguments.seed,
+    };
+    let waiting = Waiting::new("choosing configurations");
+    let plan = plan(scenario, &arguments.cache.open())?;
+    drop(waiting);
+    let bar = Counting::new()?;
+    output::write_through(&arguments.output, arguments.force, |file| {
+        plan.record(BufWriter::new(file), &mut |done, total| bar.tell(done, total)).map_err(
+            |error| match error {
+                SimulateError::Write(error) => convert::named(error, &arguments.output),
+                other => other.into(),
+            },
+        )
+    })?;
+    drop(bar);
+    output::say(&summary(arguments));
+    Ok(Ending::Done)
+}
+
+fn summary(arguments: &Arguments) -> String {
+    let Arguments { configurations, frames, sensor, output, .. } = arguments;
+    let path = output.display();
+    format!(
+        "{configurations} configurations of {frames} frames by a simulated {sensor}, written to \
+         {path}\n\ncalibrate it, and see how far off that is:\n  eyebolt calibrate {path} -o \
+         calibration.json\n  eyebolt evaluate {path} calibration.json"
+    )
+}

@@ -1,0 +1,150 @@
+//! Recordings of an arm and a camera that are not there: to try eyebolt without a robot, and to
+//! judge it where the truth is known.
+//!
+//! [`plan`] decides where everything is, and [`Plan::record`] writes what the camera sees of it as
+//! an ordinary recording. The truth goes into a record of its own, for [`crate::evaluate`].
+
+mod body;
+mod configurations;
+mod faults;
+mod record;
+mod scene;
+mod solids;
+mod surroundings;
+mod timeline;
+mod viewpoint;
+
+pub use faults::Faults;
+pub use solids::Solid;
+pub use viewpoint::{PRESETS, Preset, Ranges, Viewpoint};
+
+use crate::record::RecordError;
+use body::ArmBody;
+use configurations::{Onlooker, Pose, choose};
+use eyebolt_geometry::{Base, Camera, CameraError, PinholeCamera, Transform};
+use eyebolt_recording::WriteError;
+use eyebolt_registration::LinkCache;
+use eyebolt_render::{Random, Sensor};
+use eyebolt_robot::Arm;
+
+/// What to simulate.
+#[derive(Clone, Debug)]
+pub struct Scenario<'a> {
+    /// The arm.
+    pub arm: &'a Arm,
+    /// Text of its URDF, which goes into the recording.
+    pub urdf: &'a str,
+    /// The camera.
+    pub sensor: Sensor,
+    /// Where it stands.
+    pub viewpoint: Viewpoint,
+    /// How many configurations the arm rests in.
+    pub configurations: usize,
+    /// Frames of each.
+    pub frames: usize,
+    /// Frames on each way from one to the next.
+    pub moving_frames: usize,
+    /// Frames without the arm.
+    pub backgrounds: usize,
+    /// Things that stand about.
+    pub clutter: usize,
+    /// What goes wrong.
+    pub faults: Faults,
+    /// Of all random choices. The same seed gives the same bytes on any number of threads.
+    pub seed: u64,
+}
+
+/// Why something cannot be simulated.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError {
+    /// The robot's shapes cannot be read.
+    #[error(transparent)]
+    Robot(#[from] RecordError),
+    /// The camera hardly sees the end-effector.
+    #[error(
+        "the camera sees the end-effector well in only {found} configurations, and {wanted} are \
+         wanted. Move the camera (--preset, --distance-m, --azimuth-deg, --elevation-deg), or take \
+         another --seed"
+    )]
+    OutOfView {
+        /// How many were found.
+        found: usize,
+        /// How many were wanted.
+        wanted: usize,
+    },
+    /// Faults leave the camera no valid intrinsics.
+    #[error("--focal-scale, --centre-px: {0}; give a factor near 1 and a few pixels")]
+    Intrinsics(#[from] CameraError),
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// Which stream of random numbers decides what: what is added later changes nothing else.
+#[derive(Clone, Copy)]
+enum Choice {
+    Viewpoint = 1,
+    Configurations,
+    Room,
+    Clutter,
+    Specimen,
+    Frames,
+    Encoders,
+    Bump,
+}
+
+impl Choice {
+    fn of(self, seed: u64) -> Random {
+        Random::new(seed).at(self as u64)
+    }
+}
+
+/// Where everything is.
+pub struct Plan<'a> {
+    scenario: Scenario<'a>,
+    body: ArmBody<'a>,
+    /// The true intrinsics.
+    camera: PinholeCamera,
+    /// What the recording says they are.
+    stated_camera: PinholeCamera,
+    base_from_camera: Transform<Base, Camera>,
+    /// Where the camera is after it was bumped, if it is.
+    bumped: Option<Transform<Base, Camera>>,
+    poses: Vec<Pose>,
+    solids: Vec<Solid>,
+}
+
+/// Decides where everything of `scenario` is; `cache` keeps shapes of links.
+///
+/// # Errors
+///
+/// Shapes that cannot be read, a camera that hardly sees the end-effector, impossible intrinsics.
+pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, SimulateError> {
+    let body = ArmBody::new(scenario.arm, cache)?;
+    let camera = scenario.sensor.camera();
+    let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
+    let seed = scenario.seed;
+    let base_from_camera = scenario.viewpoint.base_from_camera(&mut Choice::Viewpoint.of(seed));
+    let bumped = scenario.faults.bumped(&base_from_camera, &mut Choice::Bump.of(seed));
+    let onlooker = Onlooker {
+        camera: &camera,
+        camera_from_base: base_from_camera.inverse(),
+        range_m: scenario.sensor.range_m,
+    };
+    let random = Choice::Configurations.of(seed);
+    let poses = choose(&body, &onlooker, scenario.configurations, random)?;
+    let solids = surroundings::arrange(&scenario, &body, &poses, &base_from_camera);
+    Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })
+}
+
+impl Plan<'_> {
+    /// The true pose of the base in the camera's optical frame, when the recording begins.
+    pub fn camera_from_base(&self) -> Transform<Camera, Base> {
+        self.base_from_camera.inverse()
+    }
+
+    /// What stands around.
+    pub fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+}

@@ -1,0 +1,56 @@
+//! Things put where they neither touch the arm nor hide it.
+
+use super::body::ArmBody;
+use super::configurations::Pose;
+use super::scene::{clutter, room};
+use super::solids::Solid;
+use super::{Choice, Scenario};
+use eyebolt_geometry::{Base, Camera, Link, Transform};
+use eyebolt_render::{RayScene, SceneMesh};
+use nalgebra::Point3;
+
+/// Places tried for each thing; a small table may have no room for all.
+const TRIES: u64 = 30;
+/// Of the arm's surface in one configuration, a thing hides no more than this.
+const HIDDEN: f64 = 0.04;
+/// Nothing stands nearer to the camera, metres.
+const CAMERA_CLEARANCE_M: f64 = 0.5;
+
+/// The room and the clutter of `scenario`, out of the way of the arm in `poses`.
+pub(super) fn arrange(
+    scenario: &Scenario<'_>,
+    body: &ArmBody<'_>,
+    poses: &[Pose],
+    base_from_camera: &Transform<Base, Camera>,
+) -> Vec<Solid> {
+    let eye = base_from_camera.point(&Point3::origin());
+    let mut solids = room(&mut Choice::Room.of(scenario.seed));
+    let random = Choice::Clutter.of(scenario.seed);
+    for thing in 0..scenario.clutter as u64 {
+        let tries = (0..TRIES).map(|place| clutter(&mut random.at(thing).at(place)));
+        let fits = |solid: &Solid| is_out_of_the_way(solid, body, poses, &eye);
+        solids.extend(tries.into_iter().find(fits));
+    }
+    solids
+}
+
+fn is_out_of_the_way(solid: &Solid, body: &ArmBody<'_>, poses: &[Pose], eye: &Point3<f64>) -> bool {
+    let far = |vertex: &Point3<f32>| (vertex.cast::<f64>() - eye).norm() > CAMERA_CLEARANCE_M;
+    if !solid.mesh.vertices.iter().all(far) {
+        return false;
+    }
+    let scene = RayScene::new(&[in_place(solid)]);
+    poses.iter().all(|pose| {
+        let points: Vec<Point3<f32>> = body.surface(&pose.posture).collect();
+        let hidden = || scene.visible_from(*eye, &points).iter().filter(|sees| !**sees).count();
+        body.is_clear_of(&pose.posture, solid) && hidden() as f64 <= HIDDEN * points.len() as f64
+    })
+}
+
+/// `solid` as a part of a scene.
+pub(super) fn in_place(solid: &Solid) -> SceneMesh<'_> {
+    // Its coordinates are those of the base already.
+    let base_from_mesh: Transform<Base, Link> =
+        Transform::from_isometry(nalgebra::Isometry3::identity());
+    SceneMesh { mesh: &solid.mesh, base_from_mesh }
+}

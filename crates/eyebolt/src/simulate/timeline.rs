@@ -1,0 +1,105 @@
+//! What happens when: the arm moves, rests, and is looked at.
+
+use eyebolt_robot::JointPositions;
+
+/// One thing that happens.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Event {
+    /// The joints are told.
+    Joints,
+    /// A frame is taken; frames at rest say of which configuration.
+    Frame {
+        /// The configuration that the arm rests in.
+        at_rest: Option<usize>,
+    },
+}
+
+/// A moment at which something happens, and where the joints are then.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Moment {
+    /// Nanoseconds.
+    pub(super) stamp_ns: i64,
+    /// Where the arm is.
+    pub(super) joints: JointPositions,
+    /// Configuration before this one, or the one it rests in if there is none before.
+    pub(super) configuration: usize,
+    pub(super) event: Event,
+}
+
+const MILLISECOND_NS: i64 = 1_000_000;
+/// The first moment: stamps of zero mean that nobody set one.
+const START_NS: i64 = 1000 * MILLISECOND_NS;
+/// From one joint state to the next, and from frame to frame at rest.
+const JOINTS_NS: i64 = 20 * MILLISECOND_NS;
+const FRAME_NS: i64 = 33_333_333;
+/// A way from one configuration to the next, and how long the arm has rested before it is looked at.
+const MOVE_NS: i64 = 2000 * MILLISECOND_NS;
+const SETTLE_NS: i64 = 300 * MILLISECOND_NS;
+
+/// When frames without the arm were taken: before everything else.
+pub(super) fn background_stamp_ns(index: usize) -> i64 {
+    START_NS + index as i64 * FRAME_NS
+}
+
+/// All that happens while the arm goes from one of `configurations` to the next and rests there for
+/// `frames` frames, with `moving_frames` on each way; `backgrounds` frames were taken before.
+pub(super) fn moments(
+    configurations: &[JointPositions],
+    frames: usize,
+    moving_frames: usize,
+    backgrounds: usize,
+) -> Vec<Moment> {
+    let mut moments = Vec::new();
+    let mut begin_ns = background_stamp_ns(backgrounds) + 1000 * MILLISECOND_NS;
+    for (index, joints) in configurations.iter().enumerate() {
+        if let Some(before) = index.checked_sub(1) {
+            way(&mut moments, begin_ns, &configurations[before], joints, index, moving_frames);
+            begin_ns += MOVE_NS;
+        }
+        let rest_ns = SETTLE_NS + frames as i64 * FRAME_NS + SETTLE_NS;
+        let mut at = |offset_ns: i64, event: Event| {
+            let joints = joints.clone();
+            moments.push(Moment {
+                stamp_ns: begin_ns + offset_ns,
+                joints,
+                configuration: index,
+                event,
+            });
+        };
+        (0..rest_ns / JOINTS_NS).for_each(|step| at(step * JOINTS_NS, Event::Joints));
+        let frame = |frame: i64| SETTLE_NS + frame * FRAME_NS;
+        (0..frames as i64).for_each(|i| at(frame(i), Event::Frame { at_rest: Some(index) }));
+        begin_ns += rest_ns;
+    }
+    // Stable: joints first where both happen at once.
+    moments.sort_by_key(|moment| moment.stamp_ns);
+    moments
+}
+
+fn way(
+    moments: &mut Vec<Moment>,
+    begin_ns: i64,
+    from: &JointPositions,
+    to: &JointPositions,
+    configuration: usize,
+    frames: usize,
+) {
+    let mut at = |offset_ns: i64, event: Event| {
+        let joints = between(from, to, offset_ns as f64 / MOVE_NS as f64);
+        moments.push(Moment { stamp_ns: begin_ns + offset_ns, joints, configuration, event });
+    };
+    (0..MOVE_NS / JOINTS_NS).for_each(|step| at(step * JOINTS_NS, Event::Joints));
+    let apart_ns = MOVE_NS / (frames as i64 + 1);
+    (1..=frames as i64).for_each(|i| at(i * apart_ns, Event::Frame { at_rest: None }));
+}
+
+/// Joints on the way, at rest at both ends.
+fn between(from: &JointPositions, to: &JointPositions, time: f64) -> JointPositions {
+    // The polynomial of least jerk (Flash and Hogan, 1985).
+    let share = time.powi(3) * (10.0 - 15.0 * time + 6.0 * time * time);
+    let mix = |(name, end): (&str, f64)| {
+        let start = from.get(name).unwrap_or(end);
+        (name.to_owned(), start + share * (end - start))
+    };
+    to.iter().map(mix).collect()
+}
