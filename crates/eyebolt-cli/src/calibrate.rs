@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         check_overlays(folder, &recording, arguments.force)?;
     }
     if let Some(report) = &arguments.report {
-        check_report(report, arguments)?;
+        check_report(report, &destination, arguments.force)?;
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
     let cache = arguments.cache.open();
@@ -151,14 +151,14 @@ fn overlay_path(folder: &Path, frame: &str) -> PathBuf {
 }
 
 /// The page goes where nothing else of this run does.
-fn check_report(report: &Path, arguments: &Arguments) -> Result<()> {
+fn check_report(report: &Path, destination: &Destination, force: bool) -> Result<()> {
     if report.is_dir() {
         bail!("{}: --report: this is a folder. Name a file in it", report.display());
     }
-    if report == arguments.output {
+    if destination.is(report) {
         bail!("{}: --report: the calibration goes there. Name another file", report.display());
     }
-    output::refuse_existing(report, arguments.force)
+    output::refuse_existing(report, force)
 }
 
 /// Every configuration with the posed arm over it, if anybody wants them.

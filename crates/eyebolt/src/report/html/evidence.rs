@@ -79,3 +79,6 @@ fn outline_px(
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -105,6 +105,13 @@ impl Svg {
     }
 }
 
+/// `value` with its sign; what rounds to zero has none.
+pub(super) fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:+.decimals$}");
+    let zero = text.chars().all(|c| "+-0.".contains(c));
+    if zero { format!("{:.decimals$}", 0.0) } else { text }
+}
+
 /// Numbers on a line of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {

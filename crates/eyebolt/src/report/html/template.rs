@@ -1,5 +1,6 @@
 //! Templates into a page.
 
+use super::svg::signed;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
 
 /// Texts that stand in the page as they are, and those that are filled in.
@@ -24,7 +25,9 @@ pub(super) fn render(context: Value) -> String {
     // Of the answer, what it leaves out of its file may be asked for, but not shown.
     environment.set_undefined_behavior(UndefinedBehavior::SemiStrict);
     environment.add_filter("fixed", |value: f64, decimals: usize| format!("{value:.decimals$}"));
-    environment.add_filter("signed", |value: f64, decimals: usize| format!("{value:+.decimals$}"));
+    environment.add_filter("signed", signed);
+    let column = |value: f64, width: usize, decimals: usize| format!("{value:>width$.decimals$}");
+    environment.add_filter("column", column);
     for (name, text) in FILES {
         environment.add_template(name, text).expect("a template of ours is well formed");
     }

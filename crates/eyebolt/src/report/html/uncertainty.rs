@@ -109,3 +109,54 @@ fn rms(covariance: &Matrix6<f64>) -> [f64; 2] {
     };
     [1e3 * trace(0), trace(3).to_degrees()]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eyebolt_geometry::{Base, Camera, Transform};
+    use nalgebra::{Point3, Vector6};
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, RngSeed};
+
+    fn config() -> Config {
+        let rng_seed = RngSeed::Fixed(7);
+        Config { rng_seed, failure_persistence: None, ..Config::default() }
+    }
+
+    fn vector(limit: f64) -> impl Strategy<Value = Vector3<f64>> {
+        [-limit..limit, -limit..limit, -limit..limit].prop_map(Vector3::from)
+    }
+
+    proptest! {
+        #![proptest_config(config())]
+
+        #[test]
+        fn moving_a_motion_tells_how_its_point_moves(
+            translation in vector(2.0), turn in vector(1.8), step in vector(1e-4),
+            spin in vector(1e-4), at in vector(1.0),
+        ) {
+            let pose = Transform::<Camera, Base>::from_parts(translation, UnitQuaternion::new(turn));
+            let motion = Vector6::from_iterator(step.iter().chain(&spin).copied());
+            let point = Point3::from(at);
+            let moved = pose.retract(&motion).point(&point) - pose.point(&point);
+            let told = moved_to(&pose.direction(&at)) * motion;
+            prop_assert!((told.fixed_rows::<3>(0) - moved).norm() < 1e-7);
+            prop_assert_eq!(told.fixed_rows::<3>(3).into_owned(), spin);
+        }
+
+        #[test]
+        fn what_varies_alone_goes_with_nothing_else(sigma in prop::array::uniform6(0.0..2.0f64)) {
+            let covariance = Matrix6::from_diagonal(&Vector6::from(sigma.map(|s| s * s)));
+            let correlations = correlations(&covariance);
+            let (mm, deg) = (deviations(&covariance).map(|d| d[0]), deviations(&covariance).map(|d| d[1]));
+            for axis in 0..3 {
+                prop_assert!((mm[axis] - 1e3 * sigma[axis]).abs() < 1e-9);
+                prop_assert!((deg[axis] - sigma[axis + 3].to_degrees()).abs() < 1e-9);
+            }
+            for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+                let expected = if r == c && sigma[r] > 0.0 { 1.0 } else { 0.0 };
+                prop_assert!((correlations[(r, c)] - expected).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -81,7 +81,7 @@
      out vec3 color;
      void main() {
        gl_Position = toClip * vec4(place, 1.0);
-       gl_PointSize = label == 0.0 ? size : size * 1.25;
+       gl_PointSize = label == 0.0 ? size : size * 1.2;
        float t = clamp(mm / 25.0, -1.0, 1.0);
        vec3 end = t < 0.0 ? vec3(0.08, 0.24, 1.0) : vec3(1.0, 0.12, 0.04);
        vec3 distance = mm < -127.5 ? rest : mix(even, end, abs(t));
@@ -117,7 +117,7 @@
   const reach = Math.hypot(...eyeOfCamera);
   let lines = [];
   const buildLines = () => {
-    const parts = { ground: [], axes: [], frustum: [] };
+    const parts = { ground: [], frustum: [], axes: [], eye: [] };
     const add = (part, color, ...places) => places.forEach((place) => parts[part].push(...place, ...color));
     for (let i = -6; i <= 6; i++) {
       add("ground", style("rule"), [i / 4, -1.5, 0], [i / 4, 1.5, 0], [-1.5, i / 4, 0], [1.5, i / 4, 0]);
@@ -126,7 +126,7 @@
     for (const [name, axis] of axes) {
       const along = (length) => axis.map((a) => a * length);
       add("axes", style(name), [0, 0, 0], along(0.3));
-      add("frustum", style(name), eyeOfCamera, transformed(camera, along(0.2)));
+      add("eye", style(name), eyeOfCamera, transformed(camera, along(0.2)));
     }
     const corners = scene.camera.corners.map(([x, y]) => transformed(image, [x * 0.35 * reach, y * 0.35 * reach, 0.35 * reach]));
     corners.forEach((corner, i) => add("frustum", style("soft"), eyeOfCamera, corner, corner, corners[(i + 1) % 4]));
@@ -154,8 +154,8 @@
   });
   byId("controls").addEventListener("change", () => redraw());
   const names = [
-    [scene.names.base, "", [0, 0, 0]], ["x", "x", [0.32, 0, 0]], ["y", "y", [0, 0.32, 0]], ["z", "z", [0, 0, 0.34]],
-    [scene.names.camera, "", eyeOfCamera, "frustum"],
+    [scene.names.base, "frame", [0, 0, 0]], ["x", "x", [0.32, 0, 0]], ["y", "y", [0, 0.32, 0]], ["z", "z", [0, 0, 0.34]],
+    [scene.names.camera, "frame", eyeOfCamera, "frustum"],
     ...["x", "y", "z"].map((name, i) => [name, name, transformed(camera, [0, 1, 2].map((j) => (i === j ? 0.22 : 0))), "frustum"]),
   ].map(([text, kind, place, needs]) => {
     const element = document.createElement("span");
@@ -168,7 +168,7 @@
   // -- where it is looked at from
   const target = scene.target.map((middle) => 0.6 * middle);
   const from = Math.atan2(eyeOfCamera[1] - target[1], eyeOfCamera[0] - target[0]);
-  const home = () => ({ turn: from + 0.7, lift: 0.45, away: 1.9 * Math.max(reach, 0.6), target: [...target] });
+  const home = () => ({ turn: from + 0.55, lift: 0.4, away: 1.45 * Math.max(reach, 0.6), target: [...target] });
   let look = home();
   const spin = () => {
     const [ct, st, cl, sl] = [Math.cos(look.turn), Math.sin(look.turn), Math.cos(look.lift), Math.sin(look.lift)];
@@ -179,8 +179,8 @@
     const eye = look.target.map((t, i) => t + look.away * back[i]);
     const along = (axis) => -axis.reduce((sum, a, i) => sum + a * eye[i], 0);
     const view = [0, 1, 2].flatMap((i) => [right[i], up[i], back[i], 0]).concat([along(right), along(up), along(back), 1]);
-    // A narrow window sees as much to the sides as a square one.
-    const f = 2.2 * Math.min(1, aspect), [near, far] = [0.02 * look.away, 20 * look.away + 10];
+    // A narrow window sees as much to the sides as a wide one.
+    const f = 2.2 * Math.min(1, aspect / 1.3), [near, far] = [0.02 * look.away, 20 * look.away + 10];
     const lens = [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, (2 * far * near) / (near - far), 0];
     return { eye, toClip: times(lens, view) };
   };
@@ -189,7 +189,7 @@
   const drawClouds = (toClip, scale) => {
     gl.useProgram(cloudProgram.made);
     gl.uniformMatrix4fv(cloudProgram.at("toClip"), false, times(toClip, box(scene.bounds)));
-    gl.uniform1f(cloudProgram.at("size"), 1.6 * scale);
+    gl.uniform1f(cloudProgram.at("size"), 2 * scale);
     gl.uniform1i(cloudProgram.at("byDistance"), byId("controls").elements.colour.value === "distance");
     for (const name of ["rest", "arm", "unsure"]) gl.uniform3fv(cloudProgram.at(name), style(name));
     gl.uniform3fv(cloudProgram.at("even"), [0.85, 0.85, 0.85]);
@@ -232,13 +232,6 @@
     const { eye, toClip } = projection(width / height);
     const frustum = byId("frustum").checked;
     drawClouds(toClip, scale);
-    gl.useProgram(lineProgram.made);
-    gl.uniformMatrix4fv(lineProgram.at("toClip"), false, toClip);
-    for (const { name, vertices, count } of lines) {
-      if (name === "frustum" && !frustum) continue;
-      gl.bindVertexArray(vertices);
-      gl.drawArrays(gl.LINES, 0, count);
-    }
     if (byId("robot").checked) {
       const through = byId("through").checked;
       if (through) {
@@ -252,6 +245,16 @@
       drawRobot(toClip, eye, through);
       gl.disable(gl.BLEND);
     }
+    gl.useProgram(lineProgram.made);
+    gl.uniformMatrix4fv(lineProgram.at("toClip"), false, toClip);
+    for (const { name, vertices, count } of lines) {
+      if (name !== "ground" && name !== "axes" && !frustum) continue;
+      // Axes show through what they stand in.
+      gl.depthFunc(name === "ground" || name === "frustum" ? gl.LEQUAL : gl.ALWAYS);
+      gl.bindVertexArray(vertices);
+      gl.drawArrays(gl.LINES, 0, count);
+    }
+    gl.depthFunc(gl.LEQUAL);
     placeNames(toClip, frustum);
     const byDistance = byId("controls").elements.colour.value === "distance";
     byId("by-distance").hidden = !byDistance;

@@ -1,7 +1,7 @@
 //! Correlations as shades.
 
 use super::WIDTH;
-use crate::report::html::svg::{Anchor, Svg};
+use crate::report::html::svg::{Anchor, Svg, signed};
 use nalgebra::Matrix6;
 
 const NAMES: [&str; 6] = ["x", "y", "z", "rot x", "rot y", "rot z"];
@@ -28,7 +28,7 @@ pub(in super::super) fn matrix(name: &str, label: &str, correlations: &Matrix6<f
                 svg.rect("cell", [x, y], size);
                 svg.shade(class, [x, y], size, 0.75 * value.abs() as f32);
                 let middle = [x + 0.5 * size[0], y + 0.5 * size[1] + 4.0];
-                svg.text("value", middle, Anchor::Middle, &format!("{value:+.2}"));
+                svg.text("value", middle, Anchor::Middle, &signed(value, 2));
             });
         }
     }

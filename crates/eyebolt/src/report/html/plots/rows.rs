@@ -2,7 +2,7 @@
 
 use super::{ROW, WIDTH, gutter, short};
 use crate::report::html::spread::Spread;
-use crate::report::html::svg::{Anchor, Axis, Svg};
+use crate::report::html::svg::{Anchor, Axis, Svg, signed};
 
 /// One distribution.
 #[derive(Clone, Debug)]
@@ -78,7 +78,7 @@ fn draw(svg: &mut Svg, row: &Row, unit: &str, axis: &Axis, y: f32) {
         svg.line("whisker", [axis.at(low), y], [axis.at(high), y]);
         svg.rect("box", [axis.at(lower), y - 4.0], [axis.at(upper) - axis.at(lower), 8.0]);
         svg.line("median", [axis.at(median), y - 7.0], [axis.at(median), y + 7.0]);
-        svg.text("value", [WIDTH, y + 4.0], Anchor::End, &format!("{median:+.1}"));
+        svg.text("value", [WIDTH, y + 4.0], Anchor::End, &signed(median.into(), 1));
     });
 }
 

@@ -96,8 +96,8 @@ pub(super) fn seen(
                 continue;
             }
             let point = pose * session.rays.point(v * width as usize + u, z);
-            // Also what has no ray.
-            if !(point.coords.norm() <= farthest_m) {
+            let away_m = point.coords.norm();
+            if away_m.is_nan() || away_m > farthest_m {
                 continue;
             }
             let nearest = configuration.posture.nearest_within(&session.arm, &point, NEAR_M);
