@@ -66,9 +66,9 @@ fn draw(svg: &mut Svg, row: &Row, unit: &str, axis: &Axis, y: f32) {
             svg.text("value", [WIDTH, y + 4.0], Anchor::End, "none");
         });
     };
+    let [a, b, middle, c, d] = [low, lower, median, upper, high].map(|v| signed(v.into(), 1));
     let title = format!(
-        "{}: median {median:+.1} {unit}, half from {lower:+.1} to {upper:+.1}, \
-         90 % from {low:+.1} to {high:+.1} {unit}, of {}",
+        "{}: median {middle} {unit}, half from {b} to {c}, 90 % from {a} to {d} {unit}, of {}",
         row.label,
         row.spread.count()
     );
@@ -78,7 +78,7 @@ fn draw(svg: &mut Svg, row: &Row, unit: &str, axis: &Axis, y: f32) {
         svg.line("whisker", [axis.at(low), y], [axis.at(high), y]);
         svg.rect("box", [axis.at(lower), y - 4.0], [axis.at(upper) - axis.at(lower), 8.0]);
         svg.line("median", [axis.at(median), y - 7.0], [axis.at(median), y + 7.0]);
-        svg.text("value", [WIDTH, y + 4.0], Anchor::End, &signed(median.into(), 1));
+        svg.text("value", [WIDTH, y + 4.0], Anchor::End, &middle);
     });
 }
 
