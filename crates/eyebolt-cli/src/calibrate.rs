@@ -5,16 +5,15 @@ use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive
 use crate::output::{self, Destination};
 use crate::progress::Bar;
 use crate::summary;
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::progress::{Progress, Step};
 use eyebolt::record::{RecordError, RecordOptions};
-use eyebolt::report::overlay;
-use eyebolt::session::ImageSource;
+use eyebolt::report::{Context, Picture, html, overlays};
+use eyebolt::session::Configuration;
 use eyebolt_recording::Recording;
-use eyebolt_render::Raster;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
@@ -36,6 +35,10 @@ pub struct Arguments {
     /// Draw the posed arm over each frame, as PNG files in this folder
     #[arg(long, value_name = "FOLDER")]
     save_overlay: Option<PathBuf>,
+    /// Write a page for a browser, complete in one file: verdict, transform, what is left over,
+    /// pictures, and the clouds with the robot to turn about
+    #[arg(long, value_name = "HTML")]
+    report: Option<PathBuf>,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -67,6 +70,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     if let Some(folder) = &arguments.save_overlay {
         check_overlays(folder, &recording, arguments.force)?;
     }
+    if let Some(report) = &arguments.report {
+        check_report(report, &destination, arguments.force)?;
+    }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
     let cache = arguments.cache.open();
     let request = Request {
@@ -83,8 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let outcome = pipeline::run(&request, &bar)
         .map_err(|error| named(error, &arguments.recording.recording))?;
     bar.begin(Step::Report);
-    let pictures = match &arguments.save_overlay {
-        Some(folder) => save_overlays(folder, &recording, &outcome, arguments.force),
+    let pictures = draw(arguments, &recording, &outcome);
+    let saved = match &arguments.save_overlay {
+        Some(folder) => save_overlays(folder, &outcome, &pictures, arguments.force),
         None => Ok(Vec::new()),
     };
     let timing = bar.finish();
@@ -92,9 +99,11 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     answer.timing_ms = arguments.timing.then_some(timing);
     let trusted = outcome.calibration.verdict == Verdict::Trusted;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
-    // A picture that could not be written must not cost the calibration.
-    output::say(&summary::text(&answer, &path, pictures.as_deref().unwrap_or_default()));
-    pictures?;
+    let report = save_report(arguments, &answer, &outcome, &pictures);
+    // A picture or a page that could not be written must not cost the calibration.
+    let written = arguments.report.as_deref().filter(|_| report.is_ok());
+    output::say(&summary::text(&answer, &path, saved.as_deref().unwrap_or_default(), written));
+    saved.and(report)?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
 
@@ -138,34 +147,58 @@ fn overlay_path(folder: &Path, frame: &str) -> PathBuf {
     folder.join(format!("overlay_{frame}.png"))
 }
 
-/// Draws every configuration; the paths of the pictures.
-fn save_overlays(
-    folder: &Path,
-    recording: &Recording,
-    outcome: &Outcome,
-    force: bool,
-) -> Result<Vec<PathBuf>> {
-    let (Some(session), Some(refinement)) = (&outcome.session, &outcome.calibration.refinement)
-    else {
-        return Ok(Vec::new());
-    };
-    let mut raster = Raster::new(&session.camera);
-    let mut paths = Vec::new();
-    for configuration in &session.configurations {
-        let name = &configuration.frames[0];
-        let index = recording.frame_names().iter().position(|other| other == name);
-        let color = index.map(|index| recording.read_color(index)).transpose();
+/// The page goes where nothing else of this run does.
+fn check_report(report: &Path, destination: &Destination, force: bool) -> Result<()> {
+    if report.is_dir() {
+        bail!("{}: --report: this is a folder. Name a file in it", report.display());
+    }
+    if destination.is(report) {
+        bail!("{}: --report: the calibration goes there. Name another file", report.display());
+    }
+    output::refuse_existing(report, force)
+}
+
+/// Every configuration with the posed arm over it, if anybody wants them.
+fn draw(arguments: &Arguments, recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
+    if arguments.save_overlay.is_none() && arguments.report.is_none() {
+        return Vec::new();
+    }
+    let color = |configuration: &Configuration| {
+        let first = configuration.frames.first()?;
+        let index = recording.frame_names().iter().position(|name| name == first)?;
         // A colour image of another camera, or none: the depth image serves as well.
-        let color = color.unwrap_or_else(|error| {
+        recording.read_color(index).unwrap_or_else(|error| {
             output::complain(&format!("note: {error}; drawn over the depth image instead"));
             None
-        });
-        let color = color.flatten().filter(|_| session.source != ImageSource::DrawnClouds);
-        let pose = &refinement.camera_from_base;
-        let picture = overlay(session, configuration, &mut raster, pose, color.as_ref());
-        let path = overlay_path(folder, name);
+        })
+    };
+    overlays(outcome, color).collect()
+}
+
+/// Writes the pictures of all configurations; their paths.
+fn save_overlays(
+    folder: &Path,
+    outcome: &Outcome,
+    pictures: &[Picture],
+    force: bool,
+) -> Result<Vec<PathBuf>> {
+    let configurations = outcome.session.iter().flat_map(|session| &session.configurations);
+    let named = configurations.zip(pictures).map(|(configuration, picture)| {
+        let path = overlay_path(folder, &configuration.frames[0]);
         output::write_whole(&path, &picture.encode_png(), force)?;
-        paths.push(path);
-    }
-    Ok(paths)
+        Ok(path)
+    });
+    named.collect()
+}
+
+fn save_report(
+    arguments: &Arguments,
+    answer: &Answer,
+    outcome: &Outcome,
+    pictures: &[Picture],
+) -> Result<()> {
+    let Some(path) = &arguments.report else { return Ok(()) };
+    let recording = arguments.recording.recording.display().to_string();
+    let context = Context { recording: &recording, pictures, truth: None };
+    output::write_whole(path, html(answer, outcome, &context).as_bytes(), arguments.force)
 }

@@ -71,6 +71,11 @@ impl Destination {
         }
     }
 
+    /// Whether a calibration may be written to `path`.
+    pub fn is(&self, path: &Path) -> bool {
+        path == self.trusted || path == self.rejected
+    }
+
     /// Writes a calibration where its verdict belongs; returns where that is.
     pub fn write(&self, trusted: bool, bytes: &[u8]) -> Result<PathBuf> {
         let path = if trusted { &self.trusted } else { &self.rejected };

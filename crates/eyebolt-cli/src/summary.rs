@@ -4,8 +4,8 @@ use eyebolt::answer::{Answer, FrameOutcome, Pose, Size};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// The summary of `answer`, written to `path`.
-pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
+/// The summary of `answer`, written to `path`, of which `pictures` and a `report` were made.
+pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&Path>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = verdict(&mut text, answer);
@@ -39,6 +39,9 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf]) -> String {
             1 => write!(text, "\npicture in {}", first.display()),
             count => write!(text, "\n{count} pictures in {}", folder.display()),
         };
+    }
+    if let Some(report) = report {
+        let _ = write!(text, "\nreport in {}", report.display());
     }
     text
 }

@@ -2,10 +2,12 @@
 
 mod backdrop;
 mod font;
+mod html;
 mod legend;
 mod overlay;
 mod picture;
 mod residual;
 
-pub use overlay::overlay;
+pub use html::{Context, TruthComparison, html};
+pub use overlay::{overlay, overlays};
 pub use picture::Picture;

@@ -43,6 +43,43 @@ fn pictures_need_a_folder() {
 }
 
 #[test]
+fn an_existing_page_stays_and_no_work_is_done() {
+    let desk = Desk::new();
+    let page = desk.file("report.html");
+    fs::write(&page, "precious").unwrap();
+    let ended = desk.calibrate(&["--report", text(&page)]);
+    ended.assert_error(1, &["report.html", "exists", "--force"]);
+    assert_eq!(fs::read(&page).unwrap(), b"precious");
+    assert_eq!(desk.names(), ["report.html"]);
+}
+
+#[test]
+fn a_page_needs_a_file_of_its_own() {
+    let desk = Desk::new();
+    let calibration = desk.file("calibration.json");
+    let rejected = desk.file("calibration.rejected.json");
+    for (path, word) in
+        [(desk.path(), "folder"), (&calibration, "goes there"), (&rejected, "goes there")]
+    {
+        let ended = desk.calibrate(&["--report", text(path), "--force"]);
+        ended.assert_error(1, &["--report", word]);
+    }
+    assert!(desk.names().is_empty());
+}
+
+#[test]
+fn a_refusal_has_a_page_too_and_force_replaces_one() {
+    let desk = Desk::new();
+    let page = desk.file("report.html");
+    fs::write(&page, "old").unwrap();
+    let ended = desk.calibrate_stranger(&["--report", text(&page), "--force"]);
+    assert_eq!(ended.code, Some(3), "{}", ended.err);
+    let text = fs::read_to_string(&page).unwrap();
+    assert!(text.contains("Refused") && text.contains("no pose was found"));
+    assert_eq!(desk.names(), ["calibration.rejected.json", "report.html"]);
+}
+
+#[test]
 fn a_refusal_never_replaces_a_calibration() {
     let desk = Desk::new();
     fs::write(desk.file("calibration.json"), "good").unwrap();

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::fs;
 use std::sync::LazyLock;
 
-/// A trusted run with pictures, on one thread.
+/// A trusted run with pictures and a page, on one thread.
 pub struct Good {
     pub desk: Desk,
     pub ended: Ended,
@@ -16,7 +16,15 @@ pub struct Good {
 pub static GOOD: LazyLock<Good> = LazyLock::new(|| {
     let desk = Desk::shared("program-good");
     let pictures = desk.file("pictures");
-    let ended = desk.calibrate(&["--threads", "1", "--save-overlay", text(&pictures)]);
+    let report = desk.file("report.html");
+    let ended = desk.calibrate(&[
+        "--threads",
+        "1",
+        "--save-overlay",
+        text(&pictures),
+        "--report",
+        text(&report),
+    ]);
     let json = fs::read_to_string(desk.file("calibration.json")).unwrap_or_default();
     Good { desk, ended, json }
 });

@@ -18,7 +18,7 @@ fn trusted_ends_with_0_and_says_only_the_summary() {
     );
     assert!(out.contains(&format!("written to {}\n", text(&GOOD.desk.file("calibration.json")))));
     assert_eq!(err, "", "no progress bar where there is no terminal");
-    assert_eq!(GOOD.desk.names(), ["calibration.json", "pictures"]);
+    assert_eq!(GOOD.desk.names(), ["calibration.json", "pictures", "report.html"]);
 }
 
 #[test]
@@ -27,6 +27,20 @@ fn the_bytes_are_the_same_on_any_number_of_threads() {
     let ended = desk.calibrate(&["--threads", "2"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(fs::read(desk.file("calibration.json")).unwrap() == GOOD.json.as_bytes());
+}
+
+#[test]
+fn the_page_tells_of_this_run_and_is_the_same_on_any_number_of_threads() {
+    let report = GOOD.desk.file("report.html");
+    assert!(GOOD.ended.out.contains(&format!("\nreport in {}", text(&report))));
+    let page = fs::read_to_string(report).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("Trusted"));
+    let pose = &parsed()["base_from_camera"]["translation_m"];
+    assert!(page.contains(&format!("--x {}", pose[0])), "{pose}");
+    assert_eq!(page.matches("data:image/png;base64,").count(), 5);
+    let desk = Desk::new();
+    desk.calibrate(&["--threads", "2", "--report", text(&desk.file("report.html"))]);
+    assert!(fs::read_to_string(desk.file("report.html")).unwrap() == page);
 }
 
 #[test]

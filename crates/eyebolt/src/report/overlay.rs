@@ -3,7 +3,8 @@
 use super::legend::{self, Line};
 use super::picture::{Picture, Rgb};
 use super::{backdrop, residual};
-use crate::session::{Configuration, Session};
+use crate::pipeline::Outcome;
+use crate::session::{Configuration, ImageSource, Session};
 use eyebolt_geometry::{Base, Camera, Mask, PinholeCamera, Transform};
 use eyebolt_recording::ColorImage;
 use eyebolt_render::{ContourPoint, Raster, contour};
@@ -12,6 +13,27 @@ const OUTLINE: Rgb = [40, 255, 70];
 const MASK_EDGE: Rgb = [255, 225, 0];
 /// Opacity of edges of one part of the arm before another.
 const INNER: f32 = 0.45;
+
+/// [`overlay`] of every configuration of `outcome` in turn, over what `color` finds for it; nothing
+/// without a pose.
+///
+/// Colour is asked for only where the images are those of a camera.
+pub fn overlays<'a>(
+    outcome: &'a Outcome,
+    mut color: impl FnMut(&Configuration) -> Option<ColorImage> + 'a,
+) -> impl Iterator<Item = Picture> + 'a {
+    let parts = outcome.session.as_ref().zip(outcome.calibration.refinement.as_ref());
+    parts.into_iter().flat_map(move |(session, refinement)| {
+        let mut raster = Raster::new(&session.camera);
+        let of_a_camera = session.source != ImageSource::DrawnClouds;
+        let draw = |configuration| {
+            let color = of_a_camera.then(|| color(configuration)).flatten();
+            let pose = &refinement.camera_from_base;
+            overlay(session, configuration, &mut raster, pose, color.as_ref())
+        };
+        session.configurations.iter().map(draw).collect::<Vec<_>>()
+    })
+}
 
 /// One configuration with the arm posed at `camera_from_base` drawn over it, of the camera's size.
 ///
