@@ -31,7 +31,7 @@ proptest! {
         let scene = scene(&meshes.iter().map(|mesh| soup(mesh)).collect::<Vec<_>>());
         let view = scene.view(&camera, &base_from_camera);
         prop_assert_eq!(view.width * view.height, camera.pixel_count());
-        let (facets, origin) = (facets(&meshes, 1.0), Point3::from(base_from_camera.translation_m()));
+        let (facets, origin) = (facets(&meshes), Point3::from(base_from_camera.translation_m()));
         for (at, ray) in rays(&camera, &base_from_camera).enumerate() {
             let (z, surface) = (f64::from(view.depth_m[at]), view.surface[at]);
             prop_assert_eq!(z > 0.0, surface != View::NOTHING);

@@ -10,14 +10,16 @@ pub struct Facet {
     pub index: u32,
 }
 
-pub fn facets(meshes: &[Vec<[Vector3<f32>; 3]>], scale: f64) -> Vec<Facet> {
+/// The triangles whose corners are finite; the others are never hit.
+pub fn facets(meshes: &[Vec<[Vector3<f32>; 3]>]) -> Vec<Facet> {
     let of_mesh = |(mesh, surface): (&Vec<[Vector3<f32>; 3]>, u16)| {
         let facet = move |(corners, index): (&[Vector3<f32>; 3], u32)| Facet {
-            corners: corners.map(|c| c.cast::<f64>() * scale),
+            corners: corners.map(|c| c.cast()),
             surface,
             index,
         };
-        mesh.iter().zip(0..).map(facet).collect::<Vec<_>>()
+        let finite = |f: &Facet| f.corners.iter().flatten().all(|v| v.is_finite());
+        mesh.iter().zip(0..).map(facet).filter(finite).collect::<Vec<_>>()
     };
     meshes.iter().zip(0..).flat_map(of_mesh).collect()
 }
@@ -64,9 +66,10 @@ pub fn meet(facet: &Facet, origin: &Point3<f64>, direction: &Vector3<f64>, size:
     let along = [a, b, c].map(|corner| ray.dot(&corner));
     let near = along.into_iter().fold(f64::INFINITY, f64::min);
     let far = along.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    // A ray beside itself by the doubt meets a slanting triangle so much nearer or farther.
-    let slant = normal.norm() / facing.abs();
-    let around = doubt * (2.0 + 2.0 * slant);
+    // A ray beside itself by the doubt meets a slanting triangle, or a sliver, so much nearer or
+    // farther.
+    let around: f64 = edges.iter().map(|(p, q)| (q - p).norm()).sum();
+    let around = doubt * (1.0 + (far - near) * around / facing.abs());
     let t = a.dot(&normal) / facing;
     let [least, most] = [(t - around).max(near - doubt), (t + around).min(far + doubt)];
     let known = least <= most;

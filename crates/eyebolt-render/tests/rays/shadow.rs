@@ -16,7 +16,7 @@ proptest! {
         let scene = scene(&meshes.iter().map(|mesh| soup(mesh)).collect::<Vec<_>>());
         let from = Point3::from(from);
         let points: Vec<Point3<f32>> = points.iter().map(|p| Point3::from(*p).cast()).collect();
-        let facets = facets(&meshes, 1.0);
+        let facets = facets(&meshes);
         let visible = scene.visible_from(from, &points);
         prop_assert_eq!(visible.len(), points.len());
         for (point, visible) in points.iter().zip(visible) {
