@@ -144,7 +144,7 @@ fn hit_row<const ANY: bool>(
     place: u32,
 ) {
     let (x, y) = (packet.x[row], packet.y[row]);
-    let (mut nearest, mut hit) = (packet.nearest[row], packet.hit[row]);
+    let (before, mut after, mut hit) = (packet.nearest[row], [0.0; LANES], packet.hit[row]);
     let [a, b, c] = planes;
     for lane in 0..LANES {
         let u = x[lane] * a[0] + y[lane] * a[1] + a[2];
@@ -153,12 +153,12 @@ fn hit_row<const ANY: bool>(
         let inside = (min(min(u, v), w) >= 0.0) | (max(max(u, v), w) <= 0.0);
         // The hit is a mean of the corners, and so never before or beyond them.
         let at = (u * z[0] + v * z[1] + w * z[2]) / (u + v + w);
-        let nearer = inside & (at > 0.0) & (at < nearest[lane]);
+        let nearer = inside & (at > 0.0) & (at < before[lane]);
         let found = if ANY { 0.0 } else { at };
-        nearest[lane] = if nearer { found } else { nearest[lane] };
+        after[lane] = if nearer { found } else { before[lane] };
         hit[lane] = if nearer { place } else { hit[lane] };
     }
-    packet.nearest[row] = nearest;
+    packet.nearest[row] = after;
     packet.hit[row] = hit;
-    packet.farthest[row] = greatest(&nearest);
+    packet.farthest[row] = greatest(&after);
 }
