@@ -48,8 +48,7 @@ fn is_post(z: f32) -> bool {
 /// First and last column of the post in row `v`.
 fn sides(image: &DepthImage, v: u32) -> Option<[f64; 2]> {
     let mut columns = (0..image.width()).filter(|u| is_post(image.at(*u, v)));
-    let first = columns.next()?;
-    Some([f64::from(first), f64::from(columns.last()?)])
+    Some([f64::from(columns.next()?), f64::from(columns.next_back()?)])
 }
 
 /// Pixels without depth in row `v` between the columns.
