@@ -7,6 +7,8 @@
 
 mod exposure;
 mod field;
+mod geometry;
+mod laws;
 mod models;
 mod multipath;
 mod specimen;
@@ -15,9 +17,10 @@ mod triangulation;
 mod window;
 
 pub use exposure::Exposure;
+pub use laws::{AxialNoise, LateralNoise};
 pub use specimen::{IntrinsicsError, Specimen};
 pub use time_of_flight::TimeOfFlight;
-pub use triangulation::{AxialNoise, LateralNoise, Triangulation, Window};
+pub use triangulation::{Triangulation, Window};
 
 use crate::rays::RayScene;
 use crate::view::View;

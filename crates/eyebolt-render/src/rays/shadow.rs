@@ -2,17 +2,17 @@
 
 use super::bvh::LANES;
 use super::eye::axes_along;
-use super::packet::{Packet, RAYS};
+use super::packet::{Packet, RAYS, ROWS};
 use super::scene::RayScene;
 use super::traverse::{Todo, cast};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
 /// What is hit within this share of the distance before a point is the point's own surface: 1 mm at
 /// 2 m, less than what a depth camera sees.
 const OWN_SURFACE: f32 = 5e-4;
 
-/// Rays of one packet stay within this of its middle: cosine of 78 degrees.
+/// Rays of one packet stay within this of its axis: cosine of 78 degrees.
 const WIDEST: f64 = 0.2;
 
 impl RayScene {
@@ -42,38 +42,27 @@ impl RayScene {
         visible: &mut [bool],
         scratch: &mut Scratch,
     ) {
-        let to_point = |p: &Point3<f32>| p.cast::<f64>() - eye_in_base;
-        let directions = points.iter().filter_map(|p| to_point(p).try_normalize(0.0));
-        let sum: Vector3<f64> = directions.filter(|d| d.iter().all(|v| v.is_finite())).sum();
-        let axis = sum.try_normalize(1e-9);
-        let axes = axis.map(|axis| axes_along(&axis));
-        let narrow = axes.is_some_and(|axes| {
-            let along = |p| {
-                let ray: Vector3<f64> = axes * to_point(p);
-                // What is not finite, or in the eye itself, fits anywhere.
-                ray.z >= WIDEST * ray.norm() || !(ray.norm() > 0.0)
-            };
-            points.iter().all(along)
-        });
-        if !narrow && points.len() > 1 {
+        let rays = points.iter().map(|p| p.cast::<f64>() - eye_in_base);
+        let Some(axes) = axes_of(rays.clone()) else {
+            // Nothing lies between an eye and itself.
+            visible.iter_mut().zip(rays).for_each(|(v, ray)| *v = ray == Vector3::zeros());
+            return;
+        };
+        // What is not finite, or in the eye itself, fits anywhere.
+        let outside = |ray: Vector3<f64>| (axes * ray).z < WIDEST * ray.norm();
+        if points.len() > 1 && rays.clone().any(outside) {
             let half = points.len() / 2;
             let (near, far) = visible.split_at_mut(half);
             self.visible_piece(eye_in_base, &points[..half], near, scratch);
             return self.visible_piece(eye_in_base, &points[half..], far, scratch);
         }
-        let Some(axes) = axes else {
-            // Only the eye itself has no direction.
-            visible.iter_mut().zip(points).for_each(|(v, p)| *v = to_point(p) == Vector3::zeros());
-            return;
-        };
         let Scratch { packet, stack } = scratch;
-        let units = (1.0 / self.metres()) as f32;
-        for at in 0..RAYS {
-            let ray = points.get(at).map(|p| (axes * to_point(p)).map(|v| v as f32));
-            let [x, y, z] = ray.map_or([f32::NAN; 3], Into::into);
+        packet.x = [[f32::NAN; LANES]; ROWS];
+        for (at, ray) in rays.enumerate() {
+            let [x, y, z] = (axes * ray / self.metres()).map(|v| v as f32).into();
             let (row, lane) = (at / LANES, at % LANES);
             (packet.x[row][lane], packet.y[row][lane]) = (x / z, y / z);
-            packet.nearest[row][lane] = z * units * (1.0 - OWN_SURFACE);
+            packet.nearest[row][lane] = z * (1.0 - OWN_SURFACE);
         }
         if packet.settle() {
             cast::<true>(&self.bvh, &self.eye(eye_in_base, &axes), packet, stack);
@@ -83,6 +72,13 @@ impl RayScene {
             *visible = finite && packet.hit[at / LANES][at % LANES] == Packet::NOTHING;
         }
     }
+}
+
+/// Axes whose z is along the first of the rays that has a direction; `None` if none has.
+fn axes_of(mut rays: impl Iterator<Item = Vector3<f64>>) -> Option<Matrix3<f64>> {
+    let along =
+        |ray: Vector3<f64>| ray.try_normalize(0.0).filter(|z| z.iter().all(|v| v.is_finite()));
+    rays.find_map(along).map(|z| axes_along(&z))
 }
 
 /// What a thread works with.

@@ -13,10 +13,9 @@ use rayon::prelude::*;
 pub struct Field {
     columns: usize,
     nodes: Vec<f32>,
-    per_px: f32,
-    /// Where the lattice lies, in spacings: its seams would show if it lay in the same place in
-    /// every frame.
-    shift: [f32; 2],
+    /// Of each column and each row of the image, the first node and the weights.
+    across: Vec<(usize, [f32; 3])>,
+    down: Vec<(usize, [f32; 3])>,
 }
 
 /// Lag at which the correlation of a [`Field`] is one half, in spacings of its lattice; from the
@@ -29,17 +28,21 @@ impl Field {
     pub fn new(random: Random, size: [usize; 2], half_px: f32) -> Self {
         let per_px = HALF_CORRELATION / half_px;
         let [columns, rows] = size.map(|pixels| (pixels as f32 * per_px) as usize + 4);
+        // The lattice would show if it lay in the same place in every frame.
         let mut place = random.at(u64::MAX);
-        let shift = [place.uniform() as f32, place.uniform() as f32];
+        let [across, down] = size.map(|pixels| {
+            let shift = place.uniform() as f32;
+            (0..pixels).map(|pixel| weights(pixel as f32 * per_px + shift)).collect()
+        });
         let count = (columns * rows) as u64;
         let nodes = (0..count).map(|node| random.at(node).normal() as f32).collect();
-        Self { columns, nodes, per_px, shift }
+        Self { columns, nodes, across, down }
     }
 
     /// The value at pixel `(u, v)` of the image.
     pub fn at(&self, u: usize, v: usize) -> f32 {
-        let (first_column, across) = weights(u as f32 * self.per_px + self.shift[0]);
-        let (first_row, down) = weights(v as f32 * self.per_px + self.shift[1]);
+        let (first_column, across) = self.across[u];
+        let (first_row, down) = self.down[v];
         let mut sum = 0.0;
         for (row, weight) in (first_row..).zip(down) {
             let at = row * self.columns + first_column;

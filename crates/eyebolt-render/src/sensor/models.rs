@@ -128,7 +128,7 @@ impl Sensor {
             window: Window { half_px: 0, least_share: 0.0 },
             fattening_px: 2.0,
             rim_px: 3.0,
-            largest_angle_rad: 88.0 * DEGREE,
+            largest_angle_rad: f64::INFINITY,
         }),
     };
 
@@ -142,7 +142,7 @@ impl Sensor {
     ///   reflects 15 % has at 3.86 m, where less signal is none; surfaces here reflect 50 %.
     /// - Focal length: what the factory's calibration states, of the middle of the lens. The field
     ///   of view of 75 by 65 degrees holds for the image before its distortion is taken out.
-    /// - Assumed: a point's image of 0.8 pixels, no depth where less than 60 % of the signal is of
+    /// - Assumed: a point's image of 0.8 pixels, no depth where less than 55 % of the signal is of
     ///   one surface.
     pub const AZURE_KINECT: Self = Self {
         name: "azure-kinect",
@@ -156,7 +156,7 @@ impl Sensor {
             systematic_m: 0.011 / 3.0,
             systematic_growth: 0.001 / 3.0,
             blur_px: 0.8,
-            least_share: 0.6,
+            least_share: 0.55,
             reflectivity: 0.5,
         }),
     };

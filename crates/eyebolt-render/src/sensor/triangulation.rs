@@ -2,13 +2,13 @@
 
 use super::exposure::{Exposure, Lateral, Readout};
 use super::field::{Field, Layers};
+use super::geometry::Geometry;
+use super::laws::{AxialNoise, LateralNoise, odds};
 use super::specimen::Specimen;
 use super::window::{APART_PX, Disparities, Neighbour, matches, near_edges, nearest_in_front};
 use crate::view::View;
 use eyebolt_geometry::PinholeCamera;
-use nalgebra::{Point2, Vector3};
 use rayon::prelude::*;
-use std::f64::consts::FRAC_PI_2;
 
 /// The figures of a camera that finds a pattern, or the image of a second lens, in its own image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,40 +47,6 @@ pub struct Triangulation {
     pub largest_angle_rad: f64,
 }
 
-/// Standard deviation of depth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AxialNoise {
-    /// That of disparity is the same everywhere.
-    Disparity {
-        /// Pixels.
-        rms_px: f64,
-    },
-    /// `floor_m + growth_per_m (z - from_m)^2 + grazing z^-1/2 a^2 / (pi/2 - a)^2` at depth z and
-    /// angle a between normal and ray; the rounding of disparity is part of it.
-    Depth {
-        /// Metres.
-        floor_m: f64,
-        /// 1/m.
-        growth_per_m: f64,
-        /// Metres.
-        from_m: f64,
-        /// m^3/2.
-        grazing: f64,
-    },
-}
-
-/// Standard deviation of where edges are: `base_px + grazing_px a / (pi/2 - a)` at an angle a
-/// between normal and ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LateralNoise {
-    /// Pixels.
-    pub base_px: f64,
-    /// Pixels.
-    pub grazing_px: f64,
-    /// Lag along an edge at which its displacement is half correlated, pixels.
-    pub half_correlation_px: f64,
-}
-
 /// The window that is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
@@ -95,35 +61,6 @@ pub struct Window {
 const SHARE_SPREAD: f32 = 0.05;
 const ANGLE_SPREAD_RAD: f32 = 0.05;
 
-impl AxialNoise {
-    /// Standard deviation of disparity before it is rounded to `step_px`, pixels.
-    fn disparity_px(&self, depth_m: f64, angle_rad: f64, product: f64, step_px: f64) -> f64 {
-        match *self {
-            Self::Disparity { rms_px } => rms_px,
-            Self::Depth { floor_m, growth_per_m, from_m, grazing } => {
-                let grown_m = growth_per_m * (depth_m - from_m).powi(2);
-                let grazing_m = grazing * odds(angle_rad).powi(2) / depth_m.sqrt();
-                let total_px = (floor_m + grown_m + grazing_m) * product / (depth_m * depth_m);
-                // The variance of rounding adds to that of noise (Sheppard).
-                (total_px.powi(2) - step_px.powi(2) / 12.0).max(0.0).sqrt()
-            }
-        }
-    }
-}
-
-/// `angle / (pi/2 - angle)`; large but finite at a right angle.
-fn odds(angle_rad: f64) -> f64 {
-    angle_rad / (FRAC_PI_2 - angle_rad).max(1e-3)
-}
-
-/// What each pixel would see if nothing but its own ray mattered.
-struct Geometry {
-    /// Disparity; 0 where nothing is seen.
-    disparity_px: Vec<f32>,
-    slope: Vec<[f32; 2]>,
-    angle_rad: Vec<f32>,
-}
-
 /// What `specimen` with `figures` measures of `view` of `camera`, where `second_sees` tells what
 /// is in sight of the second lens.
 pub fn expose(
@@ -137,7 +74,8 @@ pub fn expose(
     let product = camera.fx() * figures.baseline_m;
     let geometry = Geometry::new(view, camera, product, specimen);
     let lit = geometry.in_sight(figures, size, second_sees);
-    let image = Disparities { size, px: &lit, slope: &geometry.slope };
+    let image =
+        Disparities { size, px: &lit, truth_px: &geometry.disparity_px, slope: &geometry.slope };
     let (value, from) = fatten(figures, &image);
     let matches = matches(&image, &geometry.angle_rad, figures.window.half_px);
     let confidence = from.par_iter().map(|at| {
@@ -162,47 +100,6 @@ pub fn expose(
     };
     let exposure = with_lateral(exposure, figures, &geometry.angle_rad, specimen);
     with_fixed_error(exposure, figures, specimen)
-}
-
-impl Geometry {
-    fn new(view: &View, camera: &PinholeCamera, product: f64, specimen: &Specimen) -> Self {
-        let disparity = |depth_m: &f32| {
-            let depth_m = specimen.depth_m(*depth_m);
-            if depth_m > 0.0 { (product / f64::from(depth_m)) as f32 } else { 0.0 }
-        };
-        let disparity_px: Vec<f32> = view.depth_m.par_iter().map(disparity).collect();
-        let facing = (0..disparity_px.len()).into_par_iter().map(|at| {
-            let (u, v) = (at % view.width, at / view.width);
-            let normal = Vector3::from(view.normal_in_camera[at]).cast::<f64>();
-            let ray = camera.ray(&Point2::new(u as f64, v as f64)).unwrap_or_default();
-            let cosine = (-normal.dot(&ray) / ray.norm()).clamp(0.0, 1.0);
-            // A plane's inverse depth is `normal . ray / distance`: affine in the pixel.
-            let scale = f64::from(disparity_px[at]) / normal.dot(&ray).min(-1e-6);
-            let slope = [normal.x / camera.fx(), normal.y / camera.fy()];
-            (slope.map(|by_px| (scale * by_px) as f32), cosine.acos() as f32)
-        });
-        let (slope, angle_rad) = facing.unzip();
-        Self { disparity_px, slope, angle_rad }
-    }
-
-    /// The disparities of what can be matched at all.
-    fn in_sight(
-        &self,
-        figures: &Triangulation,
-        size: [usize; 2],
-        second_sees: &[bool],
-    ) -> Vec<f32> {
-        let seeing = size[0].saturating_sub(figures.blind_columns as usize);
-        let pixels = self.disparity_px.par_iter().zip(second_sees).enumerate();
-        pixels
-            .map(|(at, (px, seen))| {
-                let u = at % size[0];
-                let beside = figures.overlap_only && (u as f32) - px < -0.5;
-                let hidden = figures.shadows && !seen;
-                if hidden || beside || u >= seeing { 0.0 } else { *px }
-            })
-            .collect()
-    }
 }
 
 /// Disparity that is found at each pixel, and the pixel that it belongs to.

@@ -10,8 +10,10 @@ pub const APART_PX: f32 = 1.0;
 pub struct Disparities<'a> {
     /// Pixels in a row, and number of rows.
     pub size: [usize; 2],
-    /// Disparity of each pixel; 0 where nothing is seen.
+    /// Disparity of each pixel; 0 where nothing can be matched.
     pub px: &'a [f32],
+    /// Disparity of what is there, whether it can be matched or not; 0 where nothing is.
+    pub truth_px: &'a [f32],
     /// How fast the disparity of the plane at each pixel grows along u and v.
     pub slope: &'a [[f32; 2]],
 }
@@ -64,7 +66,7 @@ pub fn matches(image: &Disparities<'_>, angle_rad: &[f32], half: usize) -> Vec<M
     matches
 }
 
-/// The nearest pixel of each within `reach_px` that sees something before the plane at the pixel.
+/// The nearest pixel of each within `reach_px` that matches something before the plane at the pixel.
 pub fn nearest_in_front(image: &Disparities<'_>, reach_px: f64) -> Vec<Option<Neighbour>> {
     let [width, height] = image.size;
     let offsets = disc(reach_px);
@@ -73,7 +75,7 @@ pub fn nearest_in_front(image: &Disparities<'_>, reach_px: f64) -> Vec<Option<Ne
     nearest.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
         for (u, found) in row.iter_mut().enumerate() {
             let here = v * width + u;
-            let (own, [along_u, along_v]) = (image.px[here], image.slope[here]);
+            let (own, [along_u, along_v]) = (image.truth_px[here], image.slope[here]);
             if greatest[here] <= own + APART_PX {
                 continue;
             }

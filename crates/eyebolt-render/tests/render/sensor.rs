@@ -1,0 +1,6 @@
+//! Depth cameras against the figures that were published of them.
+
+mod edges;
+mod faults;
+mod spread;
+mod wall;
