@@ -5,7 +5,7 @@ use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive
 use crate::output::{self, Destination};
 use crate::progress::Bar;
 use crate::summary;
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::pipeline::{self, Outcome, Request};
