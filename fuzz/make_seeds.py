@@ -189,6 +189,7 @@ DEPTH = [
 ]
 COMPRESSED = ["/depth/rvl/compressedDepth", "/depth/camera_info", "/joint_states"]
 CLOUD = ["/points", "/joint_states"]
+BACKGROUND = "/depth/metres"
 
 
 def recorded(store, topics: list[str]):
@@ -200,7 +201,7 @@ def recorded(store, topics: list[str]):
                 yield topic, kind, stamp_ns + 1_000_000, serialize(store, kind, message)
 
 
-def mcap(topics, store=ROS2, chunked=True, compression=CompressionType.NONE) -> bytes:
+def mcap(topics, store=ROS2, chunked=True, compression=CompressionType.NONE, simulated=False) -> bytes:
     path = SEEDS / "bag.mcap"
     with path.open("wb") as stream:
         writer = McapWriter(
@@ -217,7 +218,11 @@ def mcap(topics, store=ROS2, chunked=True, compression=CompressionType.NONE) -> 
             if topic not in channels:
                 channels[topic] = writer.register_channel(topic, how, schemas[kind])
             writer.add_message(channels[topic], time_ns, data, time_ns)
-        writer.add_metadata("eyebolt", {"base": "base", "end_effector": "hand"})
+        known = {"base": "base", "end_effector": "hand"}
+        if simulated:
+            known["background_topic"] = BACKGROUND
+            writer.add_metadata("eyebolt.truth", {"json": json.dumps(truth())})
+        writer.add_metadata("eyebolt", known)
         writer.finish()
     content = path.read_bytes()
     path.unlink()
@@ -292,6 +297,7 @@ def bags() -> None:
     put("mcap/chunked.mcap", mcap(DEPTH))
     put("mcap/compressed_depth.mcap", mcap(COMPRESSED))
     put("mcap/cloud.mcap", mcap(CLOUD, chunked=False))
+    put("mcap/simulated.mcap", mcap([*DEPTH, BACKGROUND], simulated=True))
     put("mcap/zstd.mcap", mcap(DEPTH, compression=CompressionType.ZSTD))
     put("mcap/lz4.mcap", mcap(CLOUD, compression=CompressionType.LZ4))
     put("mcap/ros1.mcap", mcap(CLOUD, store=ROS1))
@@ -383,6 +389,13 @@ urdf = "robot.urdf"
 base = "base_link"
 end_effector = "hand"
 """
+TOML_BACKGROUND = """camera.info = "camera_info.yaml"
+background = { depth = "background_{}.npy", depth_unit = "m" }
+[frames]
+depth = "depth_{}.png"
+depth_unit = "mm"
+joints = "joints.csv"
+"""
 TOML_PNG = """camera.info = 'camera_info.yaml'
 [frames]
 depth = '''depth_{}.png'''
@@ -405,7 +418,7 @@ def texts() -> None:
     put("camera_info/ros2.yaml", CAMERA_ROS2)
     put("camera_info/ros1.yaml", CAMERA_ROS1)
     put("camera_info/file.yaml", CAMERA_FILE)
-    for name in ["depth", "png", "cloud", "pcd"]:
+    for name in ["depth", "png", "cloud", "pcd", "background"]:
         put(f"toml/{name}.toml", globals()[f"TOML_{name.upper()}"])
     put("joints/frame.csv", "joint_1,joint_2\n0.5,-1.25\n")
     put("joints/table.csv", "frame,stamp,joint_1,joint_2\n0,1.5,0.5,-1.25\n1,2.5,1e-1,2\nstart,3,0,\"1\"\n")
@@ -508,6 +521,31 @@ def calibrations() -> None:
     ]}))
 
 
+def truth() -> dict:
+    """As a simulation with a camera that is bumped knows it."""
+    camera_from_base = np.eye(4)
+    camera_from_base[:3, :3] = [[0.28, -0.96, 0.0], [0.0, 0.0, -1.0], [0.96, 0.28, 0.0]]
+    camera_from_base[:3, 3] = [0.5, -0.25, 1.5]
+    moved = camera_from_base.copy()
+    moved[0, 3] = 0.51
+    return {
+        "schema": "eyebolt.truth/1",
+        "robot": "a",
+        "sensor": "stereo",
+        "preset": None,
+        "seed": 2**64 - 1,
+        "camera_from_base": camera_from_base.tolist(),
+        "camera_from_base_after": [{"stamp_ns": START_NS, "camera_from_base": moved.tolist()}],
+        "faults": {"clock_offset_s": 0.02, "noise": {"sigma_px": 0.1}},
+    }
+
+
+def truths() -> None:
+    put("truth/full.json", json.dumps(truth(), indent=2))
+    least = {name: truth()[name] for name in ("schema", "robot", "sensor", "seed", "camera_from_base")}
+    put("truth/least.json", json.dumps(least))
+
+
 TREE = """transforms:
 - header:
     stamp: {sec: 1, nanosec: 2}
@@ -531,6 +569,7 @@ def main() -> None:
     robots()
     clouds()
     calibrations()
+    truths()
     sizes = [path.stat().st_size for path in SEEDS.rglob("*") if path.is_file()]
     assert max(sizes) < 20_000 and sum(sizes) < 300_000, (max(sizes), sum(sizes))
     print(f"{len(sizes)} seeds, {sum(sizes)} bytes")

@@ -1,6 +1,6 @@
 //! What the fuzz targets share: files for the readers that open them by themselves.
 
-use eyebolt_recording::{BagOptions, Recording, WriteRobot, write_mcap};
+use eyebolt_recording::{BagOptions, Recording, WriteRobot, read_truth, write_mcap};
 use std::fs;
 use std::io::Cursor;
 use std::ops::ControlFlow;
@@ -26,11 +26,15 @@ const MOST_FRAMES: usize = 3;
 
 /// Reads the recording at `path` and writes it again, if it is one.
 pub fn recording(path: &Path) {
+    let _ = read_truth(path);
     for partial in [false, true] {
         let options = BagOptions { partial, scratch: FOLDER.clone(), ..BagOptions::default() };
         let Ok(recording) = Recording::open(path, &options) else { continue };
         for index in 0..recording.frame_names().len().min(MOST_FRAMES) {
             let _ = (recording.read_frame(index), recording.read_color(index));
+        }
+        for index in 0..recording.background_count().min(MOST_FRAMES) {
+            let _ = recording.read_background(index);
         }
         if let Some(bag) = recording.bag() {
             let _ = (bag.topics(), bag.dropped_frames(), bag.clock_offset(), bag.damage());

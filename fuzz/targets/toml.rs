@@ -12,6 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     file("cloud_1.pcd", include_bytes!("../seeds/pcd/grid_f4_binary.pcd"));
     file("color_1.png", include_bytes!("../seeds/png_depth/rgb.png"));
     file("mask_1.png", include_bytes!("../seeds/png_depth/mask.png"));
+    file("background_1.npy", include_bytes!("../seeds/npy/depth.npy"));
     file("joints_1.npy", include_bytes!("../seeds/npy/joints.npy"));
     file("joints.csv", include_bytes!("../seeds/joints/table.csv"));
     recording(&file("recording.toml", bytes));

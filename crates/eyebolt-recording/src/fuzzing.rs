@@ -17,6 +17,7 @@ use crate::message::{
 };
 use crate::npy::{Dtype, Npy};
 use crate::png_image::PngImage;
+use crate::truth::Truth;
 use std::path::Path;
 
 /// An NPY file as depth, as points and as positions of joints.
@@ -73,6 +74,16 @@ pub fn joints(path: &Path, extension: &str) {
         manifest.joint_names = joint_names;
         let _ = Joints::open(&manifest, &frames);
     }
+}
+
+/// Text as the truth of a simulation: what was read and written is read again.
+pub fn truth(text: &str) {
+    let path = Path::new("truth.json");
+    let Ok(truth) = Truth::parse(path, text) else { return };
+    let again = Truth::parse(path, &truth.to_json()).expect("it was written by the same version");
+    assert_eq!((again.seed, &again.faults), (truth.seed, &truth.faults));
+    let (distance_m, _) = again.camera_from_base.distance_to(&truth.camera_from_base);
+    assert!(distance_m == 0.0);
 }
 
 /// Most messages of a bag that are read again.

@@ -92,6 +92,38 @@ fn a_recording_is_not_written_over_itself() {
 }
 
 #[test]
+fn backgrounds_and_truth_go_with_it() {
+    let desk = Desk::new();
+    let recording = desk.file("recording");
+    fs::create_dir(&recording).unwrap();
+    for file in fs::read_dir(&*RECORDING).unwrap() {
+        let file = file.unwrap().path();
+        fs::copy(&file, recording.join(file.file_name().unwrap())).unwrap();
+    }
+    let described = fs::read_to_string(recording.join("recording.toml")).unwrap();
+    let described = described + "\n[background]\ndepth = \"background_{}.npy\"\n";
+    fs::write(recording.join("recording.toml"), described).unwrap();
+    fs::copy(recording.join("depth_0.npy"), recording.join("background_0.npy")).unwrap();
+    // Nothing reads it, so it may say anything.
+    fs::write(recording.join("truth.json"), "whatever it says").unwrap();
+    let (mcap, folder) = (desk.file("a.mcap"), desk.file("folder"));
+    // The second time over a folder with such files in it.
+    for more in [&[][..], &["--force"]] {
+        assert_eq!(convert(&recording, &mcap, more).code, Some(0));
+        let ended = convert(&mcap, &folder, more);
+        assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+        let [frame, background] =
+            ["depth_0.npy", "background_0.npy"].map(|name| fs::read(folder.join(name)).unwrap());
+        assert!(frame == background);
+        assert_eq!(fs::read_to_string(folder.join("truth.json")).unwrap(), "whatever it says");
+    }
+    let said = eyebolt(&["info", text(&mcap)]).out;
+    let line = said.lines().find(|line| line.contains("/camera/depth/background/image_raw"));
+    assert!(line.is_some_and(|line| line.starts_with("background ")), "{said}");
+    assert!(said.contains("5 take part"), "{said}");
+}
+
+#[test]
 fn what_is_not_written_is_said_so() {
     for name in ["a.bag", "a.db3", "a.mcap.zstd"] {
         let ended = convert(&RECORDING, Path::new(name), &[]);

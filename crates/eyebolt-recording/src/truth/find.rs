@@ -40,6 +40,14 @@ pub fn read_truth(path: &Path) -> Result<Truth, RecordingError> {
     Source { path: &file, place: "" }.parse(&text)
 }
 
+#[cfg(fuzzing)]
+impl Truth {
+    /// The truth that the text of the file at `path` spells.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecordingError> {
+        Source { path, place: "" }.parse(text)
+    }
+}
+
 fn in_bag(path: &Path) -> Result<Truth, RecordingError> {
     let bag = Bag::open(path, Path::new("."))?;
     let text = of_bag(&bag, path)?.ok_or_else(|| none(path))?;

@@ -1,5 +1,6 @@
 //! Recordings in bags, written by the tests message by message and read back.
 
+mod backgrounds;
 mod cameras;
 mod clocks;
 mod clouds;

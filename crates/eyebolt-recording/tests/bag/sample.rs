@@ -4,6 +4,7 @@ use super::writer::{self, Message, write_mcap};
 use eyebolt_recording::{
     BagOptions, BagRecording, Range, RecordingError, StaticTransform, static_transforms,
 };
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -28,6 +29,8 @@ pub const FRAME: &str = "camera_optical";
 #[derive(Clone, Default)]
 pub struct Bag {
     pub messages: Vec<Message>,
+    /// As eyebolt writes it into bags of its own.
+    pub metadata: BTreeMap<String, String>,
     pub options: BagOptions,
 }
 
@@ -141,7 +144,7 @@ impl Bag {
         let path = folder.path().join(NAME);
         let mut messages = self.messages.clone();
         messages.sort_by_key(|message| message.log_time_ns);
-        write_mcap(&path, &messages);
+        write_mcap(&path, &messages, &self.metadata);
         (folder, path)
     }
 

@@ -132,8 +132,8 @@ pub struct Message {
     pub data: Vec<u8>,
 }
 
-/// Writes the messages in their order.
-pub fn write_mcap(path: &Path, messages: &[Message]) {
+/// Writes the messages in their order, and what eyebolt would know of them.
+pub fn write_mcap(path: &Path, messages: &[Message], metadata: &BTreeMap<String, String>) {
     let file = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
     let options = mcap::WriteOptions::new().compression(None).chunk_size(Some(4096));
     let mut writer = options.create(file).unwrap();
@@ -148,6 +148,11 @@ pub fn write_mcap(path: &Path, messages: &[Message]) {
         let header =
             mcap::records::MessageHeader { channel_id, sequence, log_time, publish_time: log_time };
         writer.write_to_known_channel(&header, &message.data).unwrap();
+    }
+    if !metadata.is_empty() {
+        let record =
+            mcap::records::Metadata { name: "eyebolt".to_owned(), metadata: metadata.clone() };
+        writer.write_metadata(&record).unwrap();
     }
     writer.finish().unwrap();
 }

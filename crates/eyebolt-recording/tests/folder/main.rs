@@ -1,5 +1,6 @@
 //! Recordings in folders, written by the tests and read back.
 
+mod backgrounds;
 mod camera_info;
 mod cloud_errors;
 mod clouds;

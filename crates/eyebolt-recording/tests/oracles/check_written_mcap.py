@@ -4,8 +4,8 @@
     python check_written_mcap.py OUT.mcap [FOLDER_WITH_DEPTH_NPY [DEPTH_PATTERN [JOINTS_PATTERN]]]
 
 Every message is decoded by `mcap-ros2-support`, from the definitions in the file, and by `rosbags`,
-from its own, and compared field by field; depth and joints are compared with the folder's arrays
-where one is given. Prints what was compared; ends with an error at the first difference.
+from its own, and compared field by field; depth, backgrounds and joints are compared with the
+folder's arrays where one is given. Prints what was compared; ends with an error at the first difference.
 """
 
 import sys
@@ -71,7 +71,16 @@ def main():
     if folder:
         described = folder / "recording.toml"
         names = tomllib.loads(described.read_text())["frames"]["joint_names"] if described.exists() else None
-        depths = [d for t, k, _, _, d in first if k == "sensor_msgs/msg/Image" and d.encoding in ("32FC1", "16UC1")]
+        images = [(t, d) for t, k, _, _, d in first if k == "sensor_msgs/msg/Image" and d.encoding in ("32FC1", "16UC1")]
+        background = [m.metadata.get("background_topic") for m in metadata if m.name == "eyebolt"][-1]
+        depths = [d for t, d in images if t != background]
+        stored = sorted(folder.glob("background_*.npy"), key=lambda path: int(path.stem.split("_")[-1]))
+        backgrounds = [d for t, d in images if t == background]
+        for image, path in zip(backgrounds, stored, strict=True):
+            kind = np.float32 if image.encoding == "32FC1" else np.uint16
+            seen = np.frombuffer(bytes(image.data), kind).reshape(image.height, image.width)
+            values = np.load(path)
+            assert np.array_equal(seen, np.where(np.isfinite(values) & (values > 0), values, 0)), path
         states = [d for _, k, _, _, d in first if k == "sensor_msgs/msg/JointState"]
         for index, (image, state) in enumerate(zip(depths, states, strict=True)):
             kind = np.float32 if image.encoding == "32FC1" else np.uint16
@@ -80,7 +89,7 @@ def main():
             assert np.array_equal(seen, np.where(np.isfinite(stored) & (stored > 0), stored, 0)), index
             joints = np.load(folder / joints_pattern.format(index)).ravel()
             assert dict(zip(state.name, state.position)) == dict(zip(names or state.name, joints)), index
-        print(f"{len(depths)} depth images and joint states are the folder's, bit for bit")
+        print(f"{len(depths)} depth images and joint states and {len(backgrounds)} backgrounds are the folder's, bit for bit")
     print("metadata:", {m.name: m.metadata for m in metadata})
     print("the same in both readers, field by field:", counts)
 

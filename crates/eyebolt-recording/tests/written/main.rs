@@ -1,0 +1,7 @@
+//! Recordings that are written message by message, read back and copied.
+
+mod round_trip;
+mod sample;
+mod streaming;
+mod truth;
+mod truth_errors;
