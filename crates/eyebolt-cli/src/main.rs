@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod convert;
+mod demo;
 mod evaluate;
 mod export;
 mod info;
@@ -26,6 +27,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// See it work: simulate an arm and a camera, calibrate them from nothing, compare with the truth
+    Demo(demo::Arguments),
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(calibrate::Arguments),
     /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
@@ -50,6 +53,7 @@ enum Ending {
 fn main() -> ExitCode {
     let Arguments { command } = Arguments::parse();
     let ending = match command {
+        Command::Demo(arguments) => demo::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),

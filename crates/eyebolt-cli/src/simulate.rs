@@ -1,6 +1,6 @@
 //! `eyebolt simulate`.
 
-mod flags;
+pub mod flags;
 
 use crate::Ending;
 use crate::convert;
@@ -8,11 +8,11 @@ use crate::inputs::{CacheArguments, use_threads};
 use crate::output;
 use crate::progress::{Counting, Waiting};
 use anyhow::Result;
-use eyebolt::simulate::{Scenario, SimulateError, plan};
+use eyebolt::simulate::{Plan, Scenario, SimulateError, plan};
 use eyebolt_render::Sensor;
 use flags::{CameraArguments, FaultArguments, RobotArguments};
 use std::io::BufWriter;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt simulate`.
 ///
@@ -81,18 +81,22 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let waiting = Waiting::new("choosing configurations");
     let plan = plan(scenario, &arguments.cache.open())?;
     drop(waiting);
+    record(&plan, &arguments.output, arguments.force)?;
+    output::say(&summary(arguments));
+    Ok(Ending::Done)
+}
+
+/// Writes the recording of `plan` to `path`, whole or not at all.
+pub fn record(plan: &Plan<'_>, path: &Path, force: bool) -> Result<()> {
     let bar = Counting::new()?;
-    output::write_through(&arguments.output, arguments.force, |file| {
+    output::write_through(path, force, |file| {
         plan.record(BufWriter::new(file), &mut |done, total| bar.tell(done, total)).map_err(
             |error| match error {
-                SimulateError::Write(error) => convert::named(error, &arguments.output),
+                SimulateError::Write(error) => convert::named(error, path),
                 other => other.into(),
             },
         )
-    })?;
-    drop(bar);
-    output::say(&summary(arguments));
-    Ok(Ending::Done)
+    })
 }
 
 fn summary(arguments: &Arguments) -> String {
