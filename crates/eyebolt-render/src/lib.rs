@@ -1,7 +1,8 @@
 //! Depth images and silhouettes of a posed robot.
 //!
-//! A z-buffer over triangles: fast enough to be redrawn in every step of a registration. Light,
-//! colour and sensor noise are none of its business.
+//! A z-buffer over triangles: fast enough to be redrawn in every step of a registration. And rays,
+//! which see both sides of a triangle, bend with the lens, and cast shadows. Light, colour and
+//! sensor noise are none of their business.
 
 mod contour;
 mod random;
