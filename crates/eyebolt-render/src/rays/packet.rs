@@ -32,7 +32,7 @@ pub(super) struct Packet {
 }
 
 /// More than the rounding of `x * a + y * b + c`, relative to its terms.
-const ROUNDING: f32 = 1e-6;
+pub(super) const ROUNDING: f32 = 1e-6;
 
 impl Packet {
     /// No triangle was hit.
@@ -81,8 +81,7 @@ impl Packet {
         true
     }
 
-    /// Sets what is known of all rays together. Hits are told from it apart, so that it may be
-    /// done where registers are wide.
+    /// Sets what is known of all rays together.
     #[inline(always)]
     pub fn bound(&mut self) {
         self.x_range = range(&self.x);

@@ -33,7 +33,7 @@ pub struct RayScene {
 }
 
 impl RayScene {
-    /// The scene of `meshes`, of which there are less than `u16::MAX`: more are not seen. Their
+    /// The scene of `meshes`, at most `u16::MAX` of them: those beyond are not seen. Their
     /// order is what [`View::surface`](crate::View::surface) counts in.
     pub fn new(meshes: &[SceneMesh<'_>]) -> Self {
         let triangles: Vec<Triangle> = meshes.iter().zip(0..u16::MAX).flat_map(triangles).collect();

@@ -163,3 +163,6 @@ fn push_children(node: &Node, frustum: &Frustum, farthest: f32, stack: &mut Vec<
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

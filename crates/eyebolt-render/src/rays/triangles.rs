@@ -7,7 +7,7 @@
 
 use super::bvh::{LANES, Lanes, Leaf};
 use super::eye::Eye;
-use super::packet::{Packet, ROWS, greatest, middle_and_half};
+use super::packet::{Packet, ROUNDING, ROWS, greatest, middle_and_half};
 
 /// The triangles of a leaf as seen from an eye.
 pub(super) struct Seen {
@@ -21,9 +21,6 @@ pub(super) struct Seen {
     /// Whether some ray of the packet may hit.
     keep: [bool; LANES],
 }
-
-/// More than the rounding of `x * a + y * b + c`, relative to its last term.
-const ROUNDING: f32 = 1e-6;
 
 #[inline(always)]
 fn min(a: f32, b: f32) -> f32 {

@@ -2,7 +2,7 @@ use crate::oracle::{facets, meet};
 use crate::scenes::{config, eye, pose, scene, soup, sphere, triangles, vector};
 use eyebolt_geometry::{Distortion, PinholeCamera, RayTable};
 use eyebolt_render::{RayScene, SceneMesh};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 proptest! {
@@ -54,8 +54,14 @@ proptest! {
         let scene = scene(&meshes.iter().map(|mesh| soup(mesh)).collect::<Vec<_>>());
         let camera = PinholeCamera::new(64, 48, 50.0, 50.0, 32.0, 24.0, Distortion::None).unwrap();
         let (view, rays) = (scene.view(&camera, &base_from_camera), RayTable::new(&camera));
-        let point = |at: usize| base_from_camera.point(&rays.point(at, view.depth_m[at]).cast()).cast();
-        let seen = (0..view.depth_m.len()).filter(|at| view.depth_m[*at] > 0.0);
+        let point = |at: usize| rays.point(at, view.depth_m[at]).cast::<f64>();
+        // A surface that is seen edge-on, within half a degree, has no depth to speak of.
+        let faces = |at: &usize| {
+            let normal = Vector3::from(view.normal_in_camera[*at]).cast();
+            normal.dot(&point(*at).coords) < -0.01 * point(*at).coords.norm()
+        };
+        let seen = (0..view.depth_m.len()).filter(|at| view.depth_m[*at] > 0.0).filter(faces);
+        let point = |at: usize| base_from_camera.point(&point(at)).cast();
         let points: Vec<Point3<f32>> = seen.map(point).collect();
         let visible = scene.visible_from(Point3::from(base_from_camera.translation_m()), &points);
         // A ray that just misses an edge may just hit it when it is rounded again.
