@@ -7,7 +7,7 @@
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::info::left_out;
 use crate::pipeline::{Outcome, Request};
-use crate::session::{ImageSource, Session};
+use crate::session::{Background, ImageSource, Session};
 use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
 use nalgebra::Matrix6;
 use serde::Serialize;
@@ -82,6 +82,10 @@ pub struct Answer {
     pub urdf_hash: String,
     /// Whether masks were used.
     pub masks: bool,
+    /// What became of the recording's frames without the arm: `used`, or `of_another_scene`; absent
+    /// if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub background: Option<&'static str>,
     /// Seed of the search.
     pub seed: u64,
     /// Milliseconds spent on each stage, if asked for.
@@ -225,6 +229,7 @@ impl Answer {
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
             masks: session.is_some_and(Session::has_masks),
+            background: session.and_then(|session| background(&session.background)),
             seed: request.seed,
             timing_ms: None,
         }
@@ -326,5 +331,13 @@ impl Intrinsics {
             distortion_model,
             distortion: coefficients[..count].to_vec(),
         }
+    }
+}
+
+fn background(background: &Background) -> Option<&'static str> {
+    match background {
+        Background::None => None,
+        Background::Seen(_) => Some("used"),
+        Background::OfAnotherScene => Some("of_another_scene"),
     }
 }

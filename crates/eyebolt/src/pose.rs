@@ -21,13 +21,14 @@ const MOVED_M: f32 = 0.04;
 /// what moved.
 pub fn arm_masks(session: &Session) -> Vec<Mask> {
     let given: Option<Vec<Mask>> = session.configurations.iter().map(|c| c.mask.clone()).collect();
-    given.unwrap_or_else(|| moving_masks(&session.configurations))
+    let background = session.background.depth();
+    given.unwrap_or_else(|| moving_masks(&session.configurations, background))
 }
 
 /// Candidates for `camera_from_base`, best first, from the pixels in `masks` and the kinematics
 /// alone. Configurations whose mask is too small to say anything take no part.
 pub fn start(session: &Session, masks: &[Mask], seed: u64, wanted: usize) -> Vec<Candidate> {
-    let whole = session.has_masks();
+    let whole = session.shows_whole_arm();
     let least = SEARCH_POINTS / 20;
     let count = session.configurations.len();
     let usable: Vec<usize> = (0..count).filter(|index| masks[*index].count() >= least).collect();

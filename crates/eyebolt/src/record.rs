@@ -1,5 +1,6 @@
 //! From a recording and a robot to a session: everything is read and checked here.
 
+mod background;
 mod eye;
 mod group;
 mod limits;
@@ -146,7 +147,8 @@ pub fn open(
     });
     // Collected first: of several errors the first is reported, whichever thread met it.
     let configurations: Vec<Result<_, RecordError>> = configurations.collect();
-    let configurations = configurations.into_iter().collect::<Result<_, _>>()?;
+    let configurations = configurations.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let background = background::read(recording, &eye, &configurations)?;
     let rays = reader.rays;
     let eye::Eye { camera, optical_from_camera, source } = eye;
     let mut outside_limits = outside.into_vec();
@@ -160,6 +162,7 @@ pub fn open(
         source,
         arm: model,
         configurations,
+        background,
         assumed_joints,
         outside_limits,
         spare_configurations: groups.len() - chosen.len(),

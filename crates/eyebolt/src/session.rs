@@ -22,12 +22,37 @@ pub struct Session {
     pub arm: ArmModel,
     /// The configurations, in the order of the recording.
     pub configurations: Vec<Configuration>,
+    /// The scene without the arm.
+    pub background: Background,
     /// Joints of the hand that the recording does not have, and that were put at their lower limit.
     pub assumed_joints: Vec<String>,
     /// Joints of the arm that were recorded outside their limits, each where it is farthest out.
     pub outside_limits: Vec<OutsideLimits>,
     /// How many more configurations the recording has, much like those that are used.
     pub spare_configurations: usize,
+}
+
+/// What is known of the scene without the arm.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Background {
+    /// The recording has no frames of it.
+    #[default]
+    None,
+    /// Its depth, of the camera's size.
+    Seen(DepthImage),
+    /// The recording's background shows another scene, or this one from another place: it was not
+    /// used.
+    OfAnotherScene,
+}
+
+impl Background {
+    /// Its depth, if it is known.
+    pub fn depth(&self) -> Option<&DepthImage> {
+        match self {
+            Self::Seen(depth) => Some(depth),
+            Self::None | Self::OfAnotherScene => None,
+        }
+    }
 }
 
 /// Where the depth images of a session come from.
@@ -76,6 +101,12 @@ impl Session {
             mask: configuration.mask.as_ref(),
             posture: &configuration.posture,
         }
+    }
+
+    /// Whether the whole arm can be told from the rest before its pose is known, and not only what
+    /// of it moved.
+    pub fn shows_whole_arm(&self) -> bool {
+        self.has_masks() || self.background.depth().is_some()
     }
 
     /// Whether the recording says which pixels are the arm.

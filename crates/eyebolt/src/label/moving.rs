@@ -1,7 +1,7 @@
-//! The arm as what moved between configurations.
+//! The arm as what moved between configurations, or was not there before.
 
 use crate::session::Configuration;
-use eyebolt_geometry::Mask;
+use eyebolt_geometry::{DepthImage, Mask};
 use eyebolt_registration::View;
 use rayon::prelude::*;
 
@@ -22,17 +22,21 @@ enum Motion {
 }
 
 /// For each configuration the pixels that stand clearly before the farthest depth that the other
-/// configurations saw there; patches too small to be an arm are left out.
+/// configurations saw there, or the `background` without the arm; patches too small to be an arm
+/// are left out.
 ///
 /// Where no other configuration saw anything, a pixel counts if it continues the surface of one
 /// that does.
-pub fn moving_masks(configurations: &[Configuration]) -> Vec<Mask> {
+pub fn moving_masks(
+    configurations: &[Configuration],
+    background: Option<&DepthImage>,
+) -> Vec<Mask> {
     let Some(first) = configurations.first() else { return Vec::new() };
     let (width, height) = (first.depth.width(), first.depth.height());
     (0..configurations.len())
         .into_par_iter()
         .map(|index| {
-            let motion = motion(configurations, index);
+            let motion = motion(configurations, background, index);
             let depth = configurations[index].depth.depth_m();
             let set = grown(&motion, depth, width as usize);
             Mask::new(width, height, set).expect("as many pixels as the depth image")
@@ -40,14 +44,17 @@ pub fn moving_masks(configurations: &[Configuration]) -> Vec<Mask> {
         .collect()
 }
 
-fn motion(configurations: &[Configuration], index: usize) -> Vec<Motion> {
+fn motion(
+    configurations: &[Configuration],
+    background: Option<&DepthImage>,
+    index: usize,
+) -> Vec<Motion> {
     let own = configurations[index].depth.depth_m();
-    let mut background = vec![0f32; own.len()];
-    for (other, configuration) in configurations.iter().enumerate() {
-        if other != index {
-            for (farthest, z) in background.iter_mut().zip(configuration.depth.depth_m()) {
-                *farthest = farthest.max(*z);
-            }
+    let others = configurations.iter().enumerate().filter(|(other, _)| *other != index);
+    let mut behind = vec![0f32; own.len()];
+    for depth in others.map(|(_, configuration)| &configuration.depth).chain(background) {
+        for (farthest, z) in behind.iter_mut().zip(depth.depth_m()) {
+            *farthest = farthest.max(*z);
         }
     }
     let judge = |(z, behind): (&f32, &f32)| match (*z > 0.0, *behind > 0.0) {
@@ -56,7 +63,7 @@ fn motion(configurations: &[Configuration], index: usize) -> Vec<Motion> {
         (true, true) if *z < behind - 1.5 * View::tolerance_m(*behind) => Motion::Moved,
         (true, true) => Motion::Still,
     };
-    own.iter().zip(&background).map(judge).collect()
+    own.iter().zip(&behind).map(judge).collect()
 }
 
 /// Connected patches of moved pixels, each with the lonely ones that continue its surface.

@@ -44,6 +44,7 @@ fn session() -> Session {
         posture,
     };
     Session {
+        background: Background::None,
         rays: RayTable::new(&camera),
         camera,
         optical_from_camera: Transform::identity(),
