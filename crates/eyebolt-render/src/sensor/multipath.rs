@@ -4,6 +4,7 @@ use crate::view::View;
 use eyebolt_geometry::{PinholeCamera, RayTable};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::f32::consts::TAU;
 
 /// One patch of what is seen, seen from the camera.
 struct Patch {
@@ -25,9 +26,15 @@ const STRIDE: usize = 4;
 ///
 /// Surfaces are matt, reflect `reflectivity`, and light each other whether or not something stands
 /// between them (Fuchs, *Multipath interference compensation in time-of-flight camera images*,
-/// ICPR 2010). The wave over a detour adds to the direct one: it moves the depth
-/// by its share of the signal times half of the detour.
-pub fn multipath_m(view: &View, camera: &PinholeCamera, reflectivity: f64) -> Vec<f32> {
+/// ICPR 2010). Waves of `wavelength_m`, in which the light is modulated, add as phasors: a short
+/// detour moves the depth by its share of the signal times half of the detour, one of half a wave
+/// not at all.
+pub fn multipath_m(
+    view: &View,
+    camera: &PinholeCamera,
+    reflectivity: f64,
+    wavelength_m: f64,
+) -> Vec<f32> {
     let mut late_m = vec![0.0; view.depth_m.len()];
     if reflectivity == 0.0 {
         return late_m;
@@ -55,7 +62,7 @@ pub fn multipath_m(view: &View, camera: &PinholeCamera, reflectivity: f64) -> Ve
         for left in (0..view.width).step_by(STRIDE) {
             let u = (left + STRIDE / 2).min(view.width - 1);
             let Some(receiver) = patch(u, v, 1) else { continue };
-            let late = late_at(&receiver, &senders, reflectivity as f32);
+            let late = late_at(&receiver, &senders, reflectivity as f32, wavelength_m as f32);
             for row in rows.chunks_mut(view.width) {
                 row[left..(left + STRIDE).min(view.width)].fill(late);
             }
@@ -64,8 +71,9 @@ pub fn multipath_m(view: &View, camera: &PinholeCamera, reflectivity: f64) -> Ve
     late_m
 }
 
-fn late_at(receiver: &Patch, senders: &[Patch], reflectivity: f32) -> f32 {
-    let (mut late_m, mut all) = (0.0, 1.0);
+fn late_at(receiver: &Patch, senders: &[Patch], reflectivity: f32, wavelength_m: f32) -> f32 {
+    // The direct wave, and what comes later: along it and across.
+    let (mut along, mut across) = (1.0, 0.0);
     for sender in senders {
         let to_sender = sender.point - receiver.point;
         let squared = to_sender.norm_squared();
@@ -84,9 +92,12 @@ fn late_at(receiver: &Patch, senders: &[Patch], reflectivity: f32) -> f32 {
         // The foreshortening of the sender as the camera sees it and as the camera lights it cancel.
         let form = sender.solid_angle * leaving * arriving / (std::f32::consts::PI * squared);
         let share = reflectivity * form * receiver.distance_m * receiver.distance_m / facing;
-        late_m += share * 0.5 * (sender.distance_m + length - receiver.distance_m);
-        all += share;
+        let detour_m = sender.distance_m + length - receiver.distance_m;
+        let (sine, cosine) = (TAU * detour_m / wavelength_m).sin_cos();
+        along += share * cosine;
+        across += share * sine;
     }
-    // Along the ray so far; depth is along the axis.
-    late_m / all * receiver.point.z / receiver.distance_m
+    // There and back; along the ray so far, while depth is along the axis.
+    let late_m = 0.5 * wavelength_m / TAU * across.atan2(along);
+    late_m * receiver.point.z / receiver.distance_m
 }

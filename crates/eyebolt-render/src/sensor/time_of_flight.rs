@@ -33,6 +33,8 @@ pub struct TimeOfFlight {
     pub least_share: f64,
     /// Share of the light that surfaces send on to each other; 0 for no multipath.
     pub reflectivity: f64,
+    /// Wavelength of the modulation of the light that depth is told by, metres.
+    pub wavelength_m: f64,
 }
 
 /// Depths within this belong to one surface as far as mixing goes, metres.
@@ -69,7 +71,7 @@ pub fn expose(
     let kernel = kernel(figures.blur_px);
     let pixels = (0..view.depth_m.len()).into_par_iter();
     let (mixed_m, share): (Vec<f32>, Vec<f32>) = pixels.map(|at| light.mix(at, &kernel)).unzip();
-    let late_m = multipath_m(view, camera, figures.reflectivity);
+    let late_m = multipath_m(view, camera, figures.reflectivity, figures.wavelength_m);
     let depth_m: Vec<f32> =
         mixed_m.iter().zip(late_m).map(|(z, late)| specimen.depth_m(z + late)).collect();
     let confidence = share.iter().zip(&light.signal).map(|(share, signal)| {
