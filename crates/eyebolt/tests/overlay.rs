@@ -1,7 +1,7 @@
 //! Laws of the overlay picture, on a box that a made-up camera sees.
 
 use eyebolt::report::overlay;
-use eyebolt::session::{Configuration, ImageSource, Session};
+use eyebolt::session::{Background, Configuration, ImageSource, Session};
 use eyebolt_geometry::{
     Base, Camera, DepthImage, Distortion, Mask, PinholeCamera, RayTable, Transform,
 };
@@ -53,6 +53,7 @@ fn session(width: u32, height: u32) -> Session {
         posture,
     };
     Session {
+        background: Background::None,
         rays: RayTable::new(&camera),
         camera,
         optical_from_camera: Transform::identity(),

@@ -186,10 +186,11 @@ fn the_left_edge_of_stereo_is_blind_by_focal_length_times_baseline_over_depth() 
 
 /// Mean error of depth of specimens without systematic error before a corner of two walls at right
 /// angles, its edge at 2 m, near the edge and far from it.
-fn corner_m(concave: bool) -> [f64; 2] {
+fn corner_m(concave: bool, wavelength_m: f64) -> [f64; 2] {
     let mut sensor = Sensor::AZURE_KINECT;
     if let eyebolt_render::Family::TimeOfFlight(figures) = &mut sensor.family {
         (figures.systematic_m, figures.systematic_growth) = (0.0, 0.0);
+        figures.wavelength_m = wavelength_m;
     }
     let camera = crop(&sensor, 400, 120);
     // Walls of 1.4 m that meet at the axis: toward the camera if concave.
@@ -223,9 +224,14 @@ fn corner_m(concave: bool) -> [f64; 2] {
 
 #[test]
 fn light_over_the_other_wall_makes_concave_corners_deeper() {
-    let [near, far] = corner_m(true);
+    // All detours are short against the wave: the more there is of them, the deeper.
+    let [near, far] = corner_m(true, 100.0);
     assert!(near > 0.005 && near < 0.1, "{near}");
     assert!(far > 0.0 && far < near, "{far}");
-    let [near, far] = corner_m(false);
+    // Of half a wave, they no longer count.
+    let [near, far] = corner_m(true, 1.5);
+    assert!(near > 0.003 && near < 0.05, "{near}");
+    assert!(far.abs() < 0.2 * near, "{far}");
+    let [near, far] = corner_m(false, 1.5);
     assert!(near.abs() < 0.001 && far.abs() < 0.001, "{near} {far}");
 }

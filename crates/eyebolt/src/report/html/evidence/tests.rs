@@ -1,7 +1,7 @@
 //! Laws of what is left over, on a box that a made-up camera sees exactly.
 
 use super::*;
-use crate::session::ImageSource;
+use crate::session::{Background, ImageSource};
 use eyebolt_geometry::{DepthImage, Distortion, PinholeCamera, RayTable};
 use eyebolt_registration::{ArmLink, ArmModel, LinkModel, Posture, StopReason};
 use eyebolt_robot::TriangleMesh;
