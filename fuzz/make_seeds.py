@@ -531,6 +531,7 @@ def truth() -> dict:
     return {
         "schema": "eyebolt.truth/1",
         "robot": "a",
+        "base": "b",
         "sensor": "stereo",
         "preset": None,
         "seed": 2**64 - 1,
@@ -542,7 +543,7 @@ def truth() -> dict:
 
 def truths() -> None:
     put("truth/full.json", json.dumps(truth(), indent=2))
-    least = {name: truth()[name] for name in ("schema", "robot", "sensor", "seed", "camera_from_base")}
+    least = {name: truth()[name] for name in ("schema", "robot", "base", "sensor", "seed", "camera_from_base")}
     put("truth/least.json", json.dumps(least))
 
 

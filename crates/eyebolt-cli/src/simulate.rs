@@ -45,10 +45,8 @@ pub struct Arguments {
     /// Seed of all random choices; the same seed gives the same bytes on any number of threads
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    #[command(flatten)]
-    faults: FaultArguments,
-    /// Where to write the recording (MCAP)
-    #[arg(short, long)]
+    /// Where to write the recording, an MCAP file
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Replace an existing file
     #[arg(long)]
@@ -58,6 +56,9 @@ pub struct Arguments {
     threads: Option<u16>,
     #[command(flatten)]
     cache: CacheArguments,
+    // Last: its heading goes on to what follows.
+    #[command(flatten)]
+    faults: FaultArguments,
 }
 
 /// Runs the command.

@@ -26,6 +26,8 @@ const SCHEMA: &str = "eyebolt.truth/1";
 pub struct Truth {
     /// Name of the robot.
     pub robot: String,
+    /// Name of its base link, whose pose this is the truth of.
+    pub base: String,
     /// Name of the sensor that was simulated.
     pub sensor: String,
     /// Name of the scene or the set of faults, where it has one.
@@ -54,6 +56,7 @@ pub struct CameraMoved {
 struct Written<'a> {
     schema: &'static str,
     robot: &'a str,
+    base: &'a str,
     sensor: &'a str,
     preset: Option<&'a str>,
     seed: u64,
@@ -85,6 +88,7 @@ impl Truth {
         let written = Written {
             schema: SCHEMA,
             robot: &self.robot,
+            base: &self.base,
             sensor: &self.sensor,
             preset: self.preset.as_deref(),
             seed: self.seed,

@@ -1,8 +1,8 @@
 //! Random numbers that depend on a seed and a place, not on the order in which they are drawn.
 
 /// SplitMix64 (Steele, Lea and Flood, *Fast splittable pseudorandom number generators*, OOPSLA
-/// 2014): small, and any two seeds give unrelated streams, so that every pixel of every frame can
-/// have a stream of its own, whichever thread draws it.
+/// 2014): small, and the streams of any two places ([`Self::at`]) are unrelated, so that every pixel
+/// of every frame can have a stream of its own, whichever thread draws it.
 #[derive(Clone, Copy, Debug)]
 pub struct Random {
     state: u64,

@@ -14,8 +14,8 @@ mod surroundings;
 mod timeline;
 mod viewpoint;
 
+pub use configurations::Rejected;
 pub use faults::Faults;
-pub use solids::Solid;
 pub use viewpoint::{PRESETS, Preset, Ranges, Viewpoint};
 
 use crate::record::RecordError;
@@ -24,8 +24,11 @@ use configurations::{Onlooker, Pose, choose};
 use eyebolt_geometry::{Base, Camera, CameraError, PinholeCamera, Transform};
 use eyebolt_recording::WriteError;
 use eyebolt_registration::LinkCache;
-use eyebolt_render::{Random, Sensor};
+use eyebolt_render::{Random, RayScene, Sensor};
 use eyebolt_robot::Arm;
+use nalgebra::Point3;
+use solids::Solid;
+use surroundings::in_place;
 
 /// What to simulate.
 #[derive(Clone, Debug)]
@@ -60,18 +63,19 @@ pub enum SimulateError {
     /// The robot's shapes cannot be read.
     #[error(transparent)]
     Robot(#[from] RecordError),
-    /// The camera hardly sees the end-effector.
-    #[error(
-        "the camera sees the end-effector well in only {found} configurations, and {wanted} are \
-         wanted. Move the camera (--preset, --distance-m, --azimuth-deg, --elevation-deg), or take \
-         another --seed"
-    )]
-    OutOfView {
+    /// Too few configurations are fit to be seen.
+    #[error("only {found} configurations are fit to be seen, and {wanted} are wanted: {rejected}")]
+    Unfit {
         /// How many were found.
         found: usize,
         /// How many were wanted.
         wanted: usize,
+        /// Why the others were not.
+        rejected: Rejected,
     },
+    /// A camera is bumped between two configurations, and there is one.
+    #[error("--bump: the camera is bumped halfway, so give at least two --configurations")]
+    BumpOfOne,
     /// Faults leave the camera no valid intrinsics.
     #[error("--focal-scale, --centre-px: {0}; give a factor near 1 and a few pixels")]
     Intrinsics(#[from] CameraError),
@@ -120,20 +124,28 @@ pub struct Plan<'a> {
 ///
 /// Shapes that cannot be read, a camera that hardly sees the end-effector, impossible intrinsics.
 pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, SimulateError> {
+    if scenario.faults.bump.is_some() && scenario.configurations < 2 {
+        return Err(SimulateError::BumpOfOne);
+    }
     let body = ArmBody::new(scenario.arm, cache)?;
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
     let base_from_camera = scenario.viewpoint.base_from_camera(&mut Choice::Viewpoint.of(seed));
     let bumped = scenario.faults.bumped(&base_from_camera, &mut Choice::Bump.of(seed));
+    let eye = base_from_camera.point(&Point3::origin());
+    let mut solids = scene::room(&mut Choice::Room.of(seed), &eye);
+    let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
     let onlooker = Onlooker {
         camera: &camera,
         camera_from_base: base_from_camera.inverse(),
         range_m: scenario.sensor.range_m,
+        told_m: [scenario.faults.depth_scale, scenario.faults.depth_offset_m],
+        room: &room,
     };
     let random = Choice::Configurations.of(seed);
     let poses = choose(&body, &onlooker, scenario.configurations, random)?;
-    let solids = surroundings::arrange(&scenario, &body, &poses, &base_from_camera);
+    solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
     Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })
 }
 
@@ -141,10 +153,5 @@ impl Plan<'_> {
     /// The true pose of the base in the camera's optical frame, when the recording begins.
     pub fn camera_from_base(&self) -> Transform<Camera, Base> {
         self.base_from_camera.inverse()
-    }
-
-    /// What stands around.
-    pub fn solids(&self) -> &[Solid] {
-        &self.solids
     }
 }

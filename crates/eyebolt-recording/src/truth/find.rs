@@ -24,20 +24,21 @@ const IN_RECORD: &str = "metadata eyebolt.truth: ";
 /// that is not of the schema `eyebolt.truth/1`: fields missing, numbers that are not finite,
 /// matrices that are not 4x4 or no rigid transforms.
 pub fn read_truth(path: &Path) -> Result<Truth, RecordingError> {
-    let text = if path.is_dir() && path.join(MANIFEST).exists() {
-        in_folder(path)?
+    let in_folder = |folder: &Path| Some(folder.join(FILE)).filter(|file| file.exists());
+    let file = if path.is_dir() && path.join(MANIFEST).exists() {
+        in_folder(path)
     } else if is_bag(path) {
         return in_bag(path);
     } else {
         match extension(path).as_str() {
-            "json" => Some(read_text(path, "the truth")?),
-            "toml" => in_folder(path.parent().unwrap_or(Path::new("")))?,
-            _ => None,
+            "toml" => in_folder(path.parent().unwrap_or(Path::new(""))),
+            // What is not there is an error of reading it.
+            "json" => Some(path.to_path_buf()),
+            _ => Some(path.to_path_buf()).filter(|path| !path.exists()),
         }
     };
-    let text = text.ok_or_else(|| none(path))?;
-    let file = if path.is_dir() { path.join(FILE) } else { path.to_path_buf() };
-    Source { path: &file, place: "" }.parse(&text)
+    let file = file.ok_or_else(|| none(path))?;
+    Source { path: &file, place: "" }.parse(&read_text(&file, "the truth")?)
 }
 
 #[cfg(fuzzing)]

@@ -43,6 +43,7 @@ impl Source<'_> {
         };
         Ok(Truth {
             robot: self.text(&root, "robot")?,
+            base: self.text(&root, "base")?,
             sensor: self.text(&root, "sensor")?,
             preset: match root.get("preset") {
                 None | Some(Value::Null) => None,

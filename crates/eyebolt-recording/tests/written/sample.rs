@@ -59,6 +59,7 @@ pub fn truth() -> Truth {
     let pose = |x: f64| Transform::<Camera, Base>::from_parts(Vector3::new(x, -0.2, 1.5), rotation);
     Truth {
         robot: "two links".to_owned(),
+        base: "ground".to_owned(),
         sensor: "structured light".to_owned(),
         preset: Some("desk".to_owned()),
         seed: u64::MAX,

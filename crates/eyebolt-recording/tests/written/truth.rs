@@ -116,7 +116,7 @@ fn truth_is_found_wherever_it_may_lie() {
         assert_eq!(read_truth(path).unwrap().seed, u64::MAX, "{}", path.display());
     }
     assert_says(read_truth(&desk.file("nowhere.json")), &["nowhere.json", "cannot read the truth"]);
-    assert_says(read_truth(&desk.file("nowhere")), &["nowhere", "no truth in it"]);
+    assert_says(read_truth(&desk.file("nowhere")), &["nowhere", "cannot read the truth"]);
 }
 
 /// Readers of recordings never look at it, whatever it says.

@@ -25,7 +25,7 @@ fn replaced(pointer: &str, value: Value, parts: &[&str]) {
 
 #[test]
 fn fields_must_be_there() {
-    for field in ["schema", "robot", "sensor", "seed", "camera_from_base"] {
+    for field in ["schema", "robot", "base", "sensor", "seed", "camera_from_base"] {
         let mut root: Value = serde_json::from_str(&truth().to_json()).unwrap();
         root.as_object_mut().unwrap().remove(field).unwrap();
         said_of(&root.to_string(), &[&format!("truth.json: {field}: the field is missing")]);
@@ -37,6 +37,7 @@ fn fields_must_be_there() {
 fn fields_are_of_their_kind() {
     replaced("/schema", json!("eyebolt.truth/2"), &["schema: \"eyebolt.truth/2\" is not"]);
     replaced("/robot", json!(3), &["robot: it is no text"]);
+    replaced("/base", json!(3), &["base: it is no text"]);
     replaced("/preset", json!(3), &["preset: it is no text"]);
     for seed in [json!(-1), json!(0.5), json!("1"), json!(1e30)] {
         replaced("/seed", seed, &["seed: ", "no whole number"]);

@@ -76,6 +76,9 @@ pub struct Layers {
     per_unit: f32,
 }
 
+/// More than any camera's range has: 200 for a RealSense D455 at its nearest.
+const MOST_LAYERS: usize = 600;
+
 impl Layers {
     /// The layers of `random` for third coordinates from 0 to those of `values`, with correlation
     /// one half between places that are `half_px` apart in the image, or `half_depth` in the third
@@ -91,16 +94,19 @@ impl Layers {
         let used = || values.iter().copied().filter(|value| *value > 0.0 && value.is_finite());
         let least = used().fold(f32::INFINITY, f32::min);
         let first = if least.is_finite() { (least * per_unit) as usize } else { 0 };
-        let last = (used().fold(0.0, f32::max) * per_unit) as usize + 3;
+        let last = (used().fold(0.0, f32::max) * per_unit) as usize;
+        // Disparity grows without bound toward the lens.
+        let last = last.clamp(first, first + MOST_LAYERS) + 3;
         let layers = (first..last).into_par_iter();
         let field = |layer: usize| Field::new(random.at(layer as u64), size, half_px);
         Self { first, fields: layers.map(field).collect(), per_unit }
     }
 
-    /// The value at pixel `(u, v)` and `depth`, one of those the layers were made for.
+    /// The value at pixel `(u, v)` and `depth`, one of those the layers were made for; beyond the
+    /// last layer, that of the last.
     pub fn at(&self, u: usize, v: usize, depth: f32) -> f32 {
         let (first, weights) = weights(depth * self.per_unit);
-        let layers = self.fields[first - self.first..].iter();
+        let layers = self.fields[(first - self.first).min(self.fields.len() - 3)..].iter();
         layers.zip(weights).map(|(field, weight)| weight * field.at(u, v)).sum()
     }
 }
@@ -150,6 +156,13 @@ mod tests {
             let variance: f32 = weights.iter().map(|w| w * w).sum();
             assert!((variance - 1.0).abs() < 1e-6, "{x}: {variance}");
         }
+    }
+
+    #[test]
+    fn disparities_without_bound_take_no_memory_without_bound() {
+        let layers = Layers::new(Random::new(1), [40, 40], 5.0, 2.0, &[3.0, 1e30]);
+        assert!(layers.fields.len() <= MOST_LAYERS + 3);
+        assert!(layers.at(3, 4, 1e30).is_finite() && layers.at(3, 4, 3.0).is_finite());
     }
 
     #[test]

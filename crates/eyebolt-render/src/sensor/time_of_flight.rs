@@ -73,7 +73,7 @@ pub fn expose(
     let (mixed_m, share): (Vec<f32>, Vec<f32>) = pixels.map(|at| light.mix(at, &kernel)).unzip();
     let late_m = multipath_m(view, camera, figures.reflectivity, figures.wavelength_m);
     let depth_m: Vec<f32> =
-        mixed_m.iter().zip(late_m).map(|(z, late)| specimen.depth_m(z + late)).collect();
+        mixed_m.iter().zip(late_m).map(|(z, late)| lengthened(*z, late, specimen)).collect();
     let confidence = share.iter().zip(&light.signal).map(|(share, signal)| {
         let share = (share - figures.least_share as f32) / SHARE_SPREAD;
         share.min((signal / figures.least_signal as f32).ln() / SIGNAL_SPREAD)
@@ -89,6 +89,11 @@ pub fn expose(
         lateral: None,
         half_px: 0.0,
     }
+}
+
+/// What `specimen` makes of depth `z` whose light comes late, metres; nothing remains nothing.
+fn lengthened(z: f32, late_m: f32, specimen: &Specimen) -> f32 {
+    if z > 0.0 { specimen.depth_m(z + late_m) } else { 0.0 }
 }
 
 impl Light {

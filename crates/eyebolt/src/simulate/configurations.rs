@@ -5,10 +5,11 @@ use super::body::ArmBody;
 use crate::record::most_spread;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::Posture;
-use eyebolt_render::{PosedMesh, Random, Raster};
+use eyebolt_render::{PosedMesh, Random, Raster, RayScene};
 use eyebolt_robot::JointPositions;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
+use std::fmt;
 
 /// An arm at rest.
 #[derive(Clone, Debug)]
@@ -23,10 +24,54 @@ pub(super) struct Onlooker<'a> {
     pub(super) camera_from_base: Transform<Camera, Base>,
     /// Nearest and farthest depth that it tells, metres.
     pub(super) range_m: [f64; 2],
+    /// What it multiplies true depth by, and adds to it, metres.
+    pub(super) told_m: [f64; 2],
+    /// What may stand between it and the arm.
+    pub(super) room: &'a RayScene,
 }
 
-/// Good configurations gathered for each that is wanted, so that there is something to choose from.
+/// Why configurations were not fit to be seen, of all that were drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rejected {
+    drawn: u64,
+    out_of_view: u64,
+    bumping: u64,
+    hidden: u64,
+}
+
+impl fmt::Display for Rejected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let share = |count: u64| 100.0 * count as f64 / self.drawn.max(1) as f64;
+        write!(
+            f,
+            "of {} that were drawn at random, the end-effector is out of the camera's view or range in \
+             {:.1} %, the arm touches itself or the table that its base stands on in {:.1} %, and the \
+             end-effector is hidden or turned away in {:.1} %. ",
+            self.drawn,
+            share(self.out_of_view),
+            share(self.bumping),
+            share(self.hidden)
+        )?;
+        f.write_str(if self.bumping > self.hidden && self.bumping * 20 > self.drawn {
+            "See to the limits of the joints in the URDF, and to its --base"
+        } else {
+            "Move the camera (--preset, --distance-m, --azimuth-deg, --elevation-deg)"
+        })
+    }
+}
+
+/// Why one configuration is not fit.
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    OutOfView,
+    Bumping,
+    Hidden,
+}
+
+/// Good configurations gathered for each that is wanted, so that there is something to choose from,
+/// but no more beyond those wanted than this.
 const CHOICE: usize = 8;
+const MOST_SPARE: usize = 150;
 /// Configurations drawn at most, and at a time.
 const MOST_DRAWN: u64 = 200_000;
 const BATCH: u64 = 512;
@@ -38,20 +83,28 @@ pub(super) fn choose(
     count: usize,
     random: Random,
 ) -> Result<Vec<Pose>, SimulateError> {
+    let enough = (CHOICE * count).min(count + MOST_SPARE);
     let mut found: Vec<Pose> = Vec::new();
-    let mut drawn = 0;
-    while found.len() < CHOICE * count && drawn < MOST_DRAWN {
-        let batch = (drawn..drawn + BATCH).into_par_iter().map_init(
+    let mut rejected = Rejected::default();
+    while found.len() < enough && rejected.drawn < MOST_DRAWN {
+        let batch = (rejected.drawn..rejected.drawn + BATCH).into_par_iter().map_init(
             || [Raster::new(onlooker.camera), Raster::new(onlooker.camera)],
             |rasters, place| good(body, onlooker, &mut random.at(place), rasters),
         );
-        found.extend(batch.collect::<Vec<_>>().into_iter().flatten());
-        drawn += BATCH;
+        for drawn in batch.collect::<Vec<_>>() {
+            match drawn {
+                Ok(pose) => found.push(pose),
+                Err(Fault::OutOfView) => rejected.out_of_view += 1,
+                Err(Fault::Bumping) => rejected.bumping += 1,
+                Err(Fault::Hidden) => rejected.hidden += 1,
+            }
+        }
+        rejected.drawn += BATCH;
     }
     if found.len() < count {
-        return Err(SimulateError::OutOfView { found: found.len(), wanted: count });
+        return Err(SimulateError::Unfit { found: found.len(), wanted: count, rejected });
     }
-    found.truncate(CHOICE * count);
+    found.truncate(enough);
     let poses: Vec<_> = found.iter().map(|pose| pose.posture.base_from_link().to_vec()).collect();
     Ok(most_spread(&poses, count).into_iter().map(|index| found[index].clone()).collect())
 }
@@ -62,20 +115,40 @@ fn good(
     onlooker: &Onlooker<'_>,
     random: &mut Random,
     rasters: &mut [Raster; 2],
-) -> Option<Pose> {
+) -> Result<Pose, Fault> {
     let joints = body.any_joints(random);
-    let hand = body.end_effector(&joints, &onlooker.camera_from_base)?;
-    let [near, far] = onlooker.range_m;
-    let pixel = onlooker.camera.project(&hand)?;
-    if !(1.1 * near..0.95 * far).contains(&hand.z) || !onlooker.camera.contains(&pixel) {
-        return None;
+    let in_range = |hand: &Point3<f64>| {
+        let ([near, far], [scale, offset_m]) = (onlooker.range_m, onlooker.told_m);
+        (1.1 * near..0.95 * far).contains(&(scale * hand.z + offset_m))
+    };
+    let hand = body.end_effector(&joints, &onlooker.camera_from_base).filter(in_range);
+    let pixel = hand.and_then(|hand| onlooker.camera.project(&hand));
+    if !pixel.is_some_and(|pixel| onlooker.camera.contains(&pixel)) {
+        return Err(Fault::OutOfView);
     }
-    let posture = body.posture(&joints)?;
-    let camera_in_base = onlooker.camera_from_base.inverse().point(&Point3::origin());
-    if body.bumps(&posture, &camera_in_base) || !shows_hand(body, onlooker, &posture, rasters) {
-        return None;
+    let posture = body.posture(&joints).ok_or(Fault::OutOfView)?;
+    let eye = onlooker.camera_from_base.inverse().point(&Point3::origin());
+    if body.bumps(&posture, &eye) {
+        return Err(Fault::Bumping);
     }
-    Some(Pose { joints, posture })
+    if !shows_hand(body, onlooker, &posture, rasters) || behind_room(body, onlooker, &posture, &eye)
+    {
+        return Err(Fault::Hidden);
+    }
+    Ok(Pose { joints, posture })
+}
+
+/// Whether the room hides some of the arm, as a camera below the table has it.
+fn behind_room(
+    body: &ArmBody<'_>,
+    onlooker: &Onlooker<'_>,
+    posture: &Posture,
+    eye: &Point3<f64>,
+) -> bool {
+    const HIDDEN: f64 = 0.1;
+    let points: Vec<Point3<f32>> = body.surface(posture).collect();
+    let hidden = onlooker.room.visible_from(*eye, &points).iter().filter(|sees| !**sees).count();
+    hidden as f64 > HIDDEN * points.len() as f64
 }
 
 /// Share of what is seen of the end-effector alone that the arm leaves in sight.

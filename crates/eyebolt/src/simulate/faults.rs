@@ -19,7 +19,7 @@ pub struct Faults {
     pub centre_px: [f64; 2],
     /// How far each joint that turns is from where it says, one way or the other, radians.
     pub joint_offset: f64,
-    /// How far the joints that turn lag behind, whichever way they came, radians.
+    /// Play of the joints that turn, from one side to the other, radians: they lag by half of it.
     pub backlash: f64,
     /// Added to the stamps of depth, seconds.
     pub time_skew_s: f64,
@@ -109,15 +109,22 @@ impl Encoders {
         Self { offsets, backlash: faults.backlash }
     }
 
-    /// What they say at `joints`, having come from `before`.
-    pub(super) fn read(&self, joints: &JointPositions, before: &JointPositions) -> JointPositions {
+    /// What they say at `joints`, on the way from `before` to `target` or at rest there: the gear
+    /// lies at the side that it was pushed to. In the first configuration it is in the middle.
+    pub(super) fn read(
+        &self,
+        joints: &JointPositions,
+        before: Option<&JointPositions>,
+        target: &JointPositions,
+    ) -> JointPositions {
         let told = joints.iter().map(|(name, position)| {
             let Some(offset) = self.offsets.get(name) else {
                 return (name.to_owned(), position);
             };
-            let came = position - before.get(name).unwrap_or(position);
-            let lag = if came == 0.0 { 0.0 } else { 0.5 * self.backlash * came.signum() };
-            (name.to_owned(), position + offset + lag)
+            let start = before.and_then(|before| before.get(name));
+            let way = start.zip(target.get(name)).map_or(0.0, |(start, end)| end - start);
+            let side = if way == 0.0 { 0.0 } else { way.signum() };
+            (name.to_owned(), position + offset + 0.5 * self.backlash * side)
         });
         told.collect()
     }

@@ -2,16 +2,16 @@
 
 use super::faults::Encoders;
 use super::surroundings::in_place;
-use super::timeline::{Event, Moment, background_stamp_ns, moments};
-use super::{Choice, Plan, SimulateError};
+use super::timeline::{Event, Timeline, background_stamp_ns};
+use super::{Choice, Plan, Scenario, SimulateError, Viewpoint};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{
     CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError, WriteProgress,
 };
-use eyebolt_registration::Posture;
 use eyebolt_render::{Exposure, RayScene, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
 use std::io::{Seek, Write};
+use std::ops::ControlFlow;
 
 /// Name of the simulated camera's frame.
 const FRAME_ID: &str = "camera_depth_optical_frame";
@@ -38,48 +38,53 @@ impl Plan<'_> {
             end_effector: Some(arm.end_effector_name()),
         };
         let mut writer = RecordingWriter::new(output, &info)?;
-        let joints: Vec<JointPositions> =
-            self.poses.iter().map(|pose| pose.joints.clone()).collect();
-        let (frames, on_ways) = (scenario.frames, scenario.moving_frames);
-        let moments = moments(&joints, frames, on_ways, scenario.backgrounds);
-        let total = joints.len() * frames + joints.len().saturating_sub(1) * on_ways;
-        let mut done = 0;
-        let mut told = |done: usize| match progress(done, total + scenario.backgrounds) {
-            std::ops::ControlFlow::Continue(()) => Ok(()),
-            std::ops::ControlFlow::Break(()) => Err(WriteError::Stopped),
+        let timeline = self.timeline();
+        let ways = self.poses.len() - 1;
+        let total = scenario.backgrounds
+            + self.poses.len() * scenario.frames
+            + ways * scenario.moving_frames;
+        let mut told = |done: usize| match progress(done, total) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(WriteError::Stopped),
         };
-        self.write_backgrounds(&mut writer)?;
+        self.write_backgrounds(&mut writer, &mut told)?;
         let encoders =
             Encoders::new(arm, &scenario.faults, &mut Choice::Encoders.of(scenario.seed));
-        let mut resting: Option<(usize, Exposure)> = None;
-        for moment in &moments {
-            match moment.event {
-                Event::Joints => {
-                    let before = &joints[moment.configuration.saturating_sub(1)];
-                    writer.joints(moment.stamp_ns, &encoders.read(&moment.joints, before))?;
-                }
-                Event::Frame { at_rest } => {
-                    told(scenario.backgrounds + done)?;
-                    let exposure = match (at_rest, resting.take()) {
-                        (Some(index), Some((known, exposure))) if index == known => exposure,
-                        _ => self.look(&moment.joints, self.pose_at(moment.configuration)),
-                    };
-                    let frame = exposure.frame(Choice::Frames.of(scenario.seed).at(done as u64));
-                    writer.depth(self.stamp_ns(moment), &frame)?;
-                    resting = at_rest.map(|index| (index, exposure));
-                    done += 1;
-                }
+        let mut done = 0;
+        for (index, pose) in self.poses.iter().enumerate() {
+            let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
+            let mut resting: Option<Exposure> = None;
+            for moment in timeline.moments(index, before, &pose.joints) {
+                let Event::Frame { at_rest } = moment.event else {
+                    let read = encoders.read(&moment.joints, before, &pose.joints);
+                    writer.joints(moment.stamp_ns, &read)?;
+                    continue;
+                };
+                told(scenario.backgrounds + done)?;
+                let known = resting.take();
+                let exposure =
+                    known.unwrap_or_else(|| self.look(&moment.joints, self.pose_at(index)));
+                let frame = exposure.frame(Choice::Frames.of(scenario.seed).at(done as u64));
+                writer.depth(self.skewed_ns(moment.stamp_ns), &frame)?;
+                resting = at_rest.then_some(exposure);
+                done += 1;
             }
         }
-        writer.truth(&self.truth(&moments))?;
+        writer.truth(&self.truth(&timeline))?;
         writer.finish()?;
-        told(scenario.backgrounds + done)?;
+        told(total)?;
         Ok(())
+    }
+
+    fn timeline(&self) -> Timeline {
+        let Scenario { frames, moving_frames, backgrounds, .. } = self.scenario;
+        Timeline { frames, moving_frames, backgrounds }
     }
 
     fn write_backgrounds<W: Write + Seek>(
         &self,
         writer: &mut RecordingWriter<W>,
+        told: &mut impl FnMut(usize) -> Result<(), WriteError>,
     ) -> Result<(), WriteError> {
         if self.scenario.backgrounds == 0 {
             return Ok(());
@@ -87,6 +92,7 @@ impl Plan<'_> {
         let exposure = self.look_at(&[], &self.base_from_camera);
         let random = Choice::Frames.of(self.scenario.seed).at(u64::MAX);
         (0..self.scenario.backgrounds).try_for_each(|index| {
+            told(index)?;
             writer.background(background_stamp_ns(index), &exposure.frame(random.at(index as u64)))
         })
     }
@@ -97,9 +103,9 @@ impl Plan<'_> {
         joints: &JointPositions,
         base_from_camera: &Transform<Base, Camera>,
     ) -> Exposure {
-        let posture: Option<Posture> = self.body.posture(joints);
-        let meshes = posture.map(|posture| self.body.scene_meshes(&posture)).unwrap_or_default();
-        self.look_at(&meshes, base_from_camera)
+        let posture = self.body.posture(joints);
+        let posture = posture.expect("the arm was posed with these joints, or others between them");
+        self.look_at(&self.body.scene_meshes(&posture), base_from_camera)
     }
 
     fn look_at(
@@ -130,22 +136,24 @@ impl Plan<'_> {
         self.poses.len().div_ceil(2)
     }
 
-    fn stamp_ns(&self, moment: &Moment) -> i64 {
-        moment.stamp_ns + (1e9 * self.scenario.faults.time_skew_s) as i64
+    /// What the recording says of a moment at which depth was taken.
+    fn skewed_ns(&self, stamp_ns: i64) -> i64 {
+        stamp_ns + (1e9 * self.scenario.faults.time_skew_s) as i64
     }
 
-    fn truth(&self, moments: &[Moment]) -> Truth {
-        let moved = moments.iter().find(|moment| moment.configuration >= self.bumped_at());
-        let after = self.bumped.zip(moved).map(|(base_from_camera, moment)| CameraMoved {
-            stamp_ns: self.stamp_ns(moment),
+    fn truth(&self, timeline: &Timeline) -> Truth {
+        let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len());
+        let after = after.map(|base_from_camera| CameraMoved {
+            stamp_ns: self.skewed_ns(timeline.begin_ns(self.bumped_at())),
             camera_from_base: base_from_camera.inverse(),
         });
         let preset = match self.scenario.viewpoint {
-            super::Viewpoint::Preset(preset) => Some(preset.name.to_owned()),
-            super::Viewpoint::Within(_) => None,
+            Viewpoint::Preset(preset) => Some(preset.name.to_owned()),
+            Viewpoint::Within(_) => None,
         };
         Truth {
             robot: self.scenario.arm.robot().name.clone(),
+            base: self.scenario.arm.base_name().to_owned(),
             sensor: self.scenario.sensor.name.to_owned(),
             preset,
             seed: self.scenario.seed,

@@ -7,8 +7,6 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 /// A thing that does not move.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// What it is, for people.
-    pub name: &'static str,
     /// Its surface, base frame.
     pub mesh: TriangleMesh,
 }
@@ -19,16 +17,16 @@ impl Solid {
     /// # Panics
     ///
     /// With a body that is a mesh file, or that has no size.
-    pub fn new(name: &'static str, bodies: &[Body]) -> Self {
+    pub fn new(bodies: &[Body]) -> Self {
         let link = Link {
-            name: name.to_owned(),
+            name: String::new(),
             parent: None,
             visuals: bodies.to_vec(),
             collisions: Vec::new(),
         };
         let mesh = link_mesh(&link, Prefer::Visual);
         let mesh = mesh.ok().flatten().expect("plain shapes have triangles");
-        Self { name, mesh }
+        Self { mesh }
     }
 
     /// Corners of the box around it, base frame, metres.

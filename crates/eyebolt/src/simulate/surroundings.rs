@@ -2,12 +2,13 @@
 
 use super::body::ArmBody;
 use super::configurations::Pose;
-use super::scene::{clutter, room};
+use super::scene::clutter;
 use super::solids::Solid;
 use super::{Choice, Scenario};
-use eyebolt_geometry::{Base, Camera, Link, Transform};
+use eyebolt_geometry::Transform;
 use eyebolt_render::{RayScene, SceneMesh};
 use nalgebra::Point3;
+use rayon::prelude::*;
 
 /// Places tried for each thing; a small table may have no room for all.
 const TRIES: u64 = 30;
@@ -16,22 +17,19 @@ const HIDDEN: f64 = 0.04;
 /// Nothing stands nearer to the camera, metres.
 const CAMERA_CLEARANCE_M: f64 = 0.5;
 
-/// The room and the clutter of `scenario`, out of the way of the arm in `poses`.
-pub(super) fn arrange(
+/// The clutter of `scenario`, out of the way of the arm in `poses` as seen from `eye` (base frame).
+pub(super) fn clutter_about(
     scenario: &Scenario<'_>,
     body: &ArmBody<'_>,
     poses: &[Pose],
-    base_from_camera: &Transform<Base, Camera>,
+    eye: &Point3<f64>,
 ) -> Vec<Solid> {
-    let eye = base_from_camera.point(&Point3::origin());
-    let mut solids = room(&mut Choice::Room.of(scenario.seed));
     let random = Choice::Clutter.of(scenario.seed);
-    for thing in 0..scenario.clutter as u64 {
-        let tries = (0..TRIES).map(|place| clutter(&mut random.at(thing).at(place)));
-        let fits = |solid: &Solid| is_out_of_the_way(solid, body, poses, &eye);
-        solids.extend(tries.into_iter().find(fits));
-    }
-    solids
+    let things = (0..scenario.clutter as u64).into_par_iter().filter_map(|thing| {
+        let mut tries = (0..TRIES).map(|place| clutter(&mut random.at(thing).at(place)));
+        tries.find(|solid| is_out_of_the_way(solid, body, poses, eye))
+    });
+    things.collect()
 }
 
 fn is_out_of_the_way(solid: &Solid, body: &ArmBody<'_>, poses: &[Pose], eye: &Point3<f64>) -> bool {
@@ -50,7 +48,5 @@ fn is_out_of_the_way(solid: &Solid, body: &ArmBody<'_>, poses: &[Pose], eye: &Po
 /// `solid` as a part of a scene.
 pub(super) fn in_place(solid: &Solid) -> SceneMesh<'_> {
     // Its coordinates are those of the base already.
-    let base_from_mesh: Transform<Base, Link> =
-        Transform::from_isometry(nalgebra::Isometry3::identity());
-    SceneMesh { mesh: &solid.mesh, base_from_mesh }
+    SceneMesh { mesh: &solid.mesh, base_from_mesh: Transform::identity() }
 }

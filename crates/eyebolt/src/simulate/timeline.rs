@@ -7,10 +7,10 @@ use eyebolt_robot::JointPositions;
 pub(super) enum Event {
     /// The joints are told.
     Joints,
-    /// A frame is taken; frames at rest say of which configuration.
+    /// A frame is taken.
     Frame {
-        /// The configuration that the arm rests in.
-        at_rest: Option<usize>,
+        /// Whether the arm rests.
+        at_rest: bool,
     },
 }
 
@@ -21,8 +21,6 @@ pub(super) struct Moment {
     pub(super) stamp_ns: i64,
     /// Where the arm is.
     pub(super) joints: JointPositions,
-    /// Configuration before this one, or the one it rests in if there is none before.
-    pub(super) configuration: usize,
     pub(super) event: Event,
 }
 
@@ -41,39 +39,55 @@ pub(super) fn background_stamp_ns(index: usize) -> i64 {
     START_NS + index as i64 * FRAME_NS
 }
 
-/// All that happens while the arm goes from one of `configurations` to the next and rests there for
-/// `frames` frames, with `moving_frames` on each way; `backgrounds` frames were taken before.
-pub(super) fn moments(
-    configurations: &[JointPositions],
-    frames: usize,
-    moving_frames: usize,
-    backgrounds: usize,
-) -> Vec<Moment> {
-    let mut moments = Vec::new();
-    let mut begin_ns = background_stamp_ns(backgrounds) + 1000 * MILLISECOND_NS;
-    for (index, joints) in configurations.iter().enumerate() {
-        if let Some(before) = index.checked_sub(1) {
-            way(&mut moments, begin_ns, &configurations[before], joints, index, moving_frames);
+/// When each configuration is reached and rested in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Timeline {
+    pub(super) frames: usize,
+    /// On each way.
+    pub(super) moving_frames: usize,
+    /// Taken before everything else.
+    pub(super) backgrounds: usize,
+}
+
+impl Timeline {
+    fn rest_ns(&self) -> i64 {
+        SETTLE_NS + self.frames as i64 * FRAME_NS + SETTLE_NS
+    }
+
+    /// When the arm sets out for a configuration, or begins to rest in the first.
+    pub(super) fn begin_ns(&self, configuration: usize) -> i64 {
+        let first_ns = background_stamp_ns(self.backgrounds) + 1000 * MILLISECOND_NS;
+        match configuration as i64 {
+            0 => first_ns,
+            later => first_ns + later * self.rest_ns() + (later - 1) * MOVE_NS,
+        }
+    }
+
+    /// All that happens while the arm goes from `before`, if it was anywhere before, to `joints` and
+    /// rests there.
+    pub(super) fn moments(
+        &self,
+        configuration: usize,
+        before: Option<&JointPositions>,
+        joints: &JointPositions,
+    ) -> Vec<Moment> {
+        let mut moments = Vec::new();
+        let mut begin_ns = self.begin_ns(configuration);
+        if let Some(before) = before {
+            way(&mut moments, begin_ns, before, joints, self.moving_frames);
             begin_ns += MOVE_NS;
         }
-        let rest_ns = SETTLE_NS + frames as i64 * FRAME_NS + SETTLE_NS;
         let mut at = |offset_ns: i64, event: Event| {
             let joints = joints.clone();
-            moments.push(Moment {
-                stamp_ns: begin_ns + offset_ns,
-                joints,
-                configuration: index,
-                event,
-            });
+            moments.push(Moment { stamp_ns: begin_ns + offset_ns, joints, event });
         };
-        (0..rest_ns / JOINTS_NS).for_each(|step| at(step * JOINTS_NS, Event::Joints));
+        (0..self.rest_ns() / JOINTS_NS).for_each(|step| at(step * JOINTS_NS, Event::Joints));
         let frame = |frame: i64| SETTLE_NS + frame * FRAME_NS;
-        (0..frames as i64).for_each(|i| at(frame(i), Event::Frame { at_rest: Some(index) }));
-        begin_ns += rest_ns;
+        (0..self.frames as i64).for_each(|i| at(frame(i), Event::Frame { at_rest: true }));
+        // Stable: joints first where both happen at once.
+        moments.sort_by_key(|moment| moment.stamp_ns);
+        moments
     }
-    // Stable: joints first where both happen at once.
-    moments.sort_by_key(|moment| moment.stamp_ns);
-    moments
 }
 
 fn way(
@@ -81,16 +95,15 @@ fn way(
     begin_ns: i64,
     from: &JointPositions,
     to: &JointPositions,
-    configuration: usize,
     frames: usize,
 ) {
     let mut at = |offset_ns: i64, event: Event| {
         let joints = between(from, to, offset_ns as f64 / MOVE_NS as f64);
-        moments.push(Moment { stamp_ns: begin_ns + offset_ns, joints, configuration, event });
+        moments.push(Moment { stamp_ns: begin_ns + offset_ns, joints, event });
     };
     (0..MOVE_NS / JOINTS_NS).for_each(|step| at(step * JOINTS_NS, Event::Joints));
     let apart_ns = MOVE_NS / (frames as i64 + 1);
-    (1..=frames as i64).for_each(|i| at(i * apart_ns, Event::Frame { at_rest: None }));
+    (1..=frames as i64).for_each(|i| at(i * apart_ns, Event::Frame { at_rest: false }));
 }
 
 /// Joints on the way, at rest at both ends.
