@@ -18,34 +18,47 @@ fn frames_on_the_way_are_dropped_as_such() {
     assert!(dropped.iter().all(|frame| matches!(frame.reason, DropReason::Moving { .. })));
 }
 
-/// Whatever the clocks: a frame takes part with the joints that the arm had, or not at all.
+/// Joints that are told for a frame are within this of those that the arm had: a slow beginning of a
+/// motion counts as rest.
+const NEARLY_RIGHT: f64 = 0.01;
+
+/// For each frame that takes part how far the joints told are from those that the arm had, where the
+/// frames of `right` tell them.
+fn off(skewed: &Recorded, right: &Recorded) -> Vec<f64> {
+    let known: Vec<_> =
+        (0..right.count()).map(|frame| right.depth(frame)).zip(right.joints()).collect();
+    let told = skewed.joints().into_iter().enumerate().map(|(frame, told)| {
+        let depth = skewed.depth(frame);
+        let (_, had) = known.iter().find(|(seen, _)| *seen == depth).expect("a frame at rest");
+        apart(&told, had)
+    });
+    told.collect()
+}
+
+/// Without frames on the way nobody can tell that the clocks differ, but frames are not taken for
+/// those of another configuration.
 #[test]
-fn clocks_that_differ_never_give_a_frame_the_joints_of_another() {
-    for moving_frames in [0, 30] {
-        let right = Recorded::of(scenario(moving_frames, 0.0));
-        assert_eq!(right.count(), 24);
-        let truth: Vec<_> =
-            right.joints().into_iter().zip((0..24).map(|f| right.depth(f))).collect();
-        for skew_s in [-0.6, -0.25, 0.04, 0.25, 0.6] {
-            let skewed = Recorded::of(scenario(moving_frames, skew_s));
-            for (frame, joints) in skewed.joints().iter().enumerate() {
-                let depth = skewed.depth(frame);
-                let (true_joints, _) = truth.iter().find(|(_, seen)| *seen == depth).unwrap();
-                let apart = apart(joints, true_joints);
-                assert!(apart < 0.005, "{moving_frames} {skew_s} {frame}: {apart}");
-            }
-        }
+fn a_difference_of_clocks_that_nobody_sees_costs_frames() {
+    let right = Recorded::of(scenario(0, 0.0));
+    for skew_s in [-0.6, -0.25, 0.04, 0.25, 0.6] {
+        let skewed = Recorded::of(scenario(0, skew_s));
+        let off = off(&skewed, &right);
+        assert!(off.iter().all(|off| *off < NEARLY_RIGHT), "{skew_s}: {off:?}");
+        assert_eq!(off.len() == 24, skew_s.abs() < 0.3, "{skew_s}: {}", off.len());
     }
 }
 
 /// With frames on the way, the motion tells how far the clocks are apart.
 #[test]
 fn the_motion_tells_how_far_the_clocks_are_apart() {
-    for skew_s in [-0.25, 0.25] {
-        let skewed = Recorded::of(scenario(50, skew_s));
+    let filmed = |skew_s| Scenario { configurations: 3, frames: 30, ..scenario(40, skew_s) };
+    let right = Recorded::of(filmed(0.0));
+    for skew_s in [-0.3, 0.3] {
+        let skewed = Recorded::of(filmed(skew_s));
         let offset = skewed.recording.bag().unwrap().clock_offset().unwrap();
         assert!(offset.seen && offset.applied, "{offset:?}");
-        assert!((offset.seconds + skew_s).abs() <= offset.uncertainty_s.max(0.03), "{offset:?}");
-        assert!(skewed.count() >= 4 * 3, "{}", skewed.count());
+        assert!((offset.seconds + skew_s).abs() <= offset.uncertainty_s + 0.02, "{offset:?}");
+        let off = off(&skewed, &right);
+        assert!(off.len() >= 60 && off.iter().all(|off| *off < NEARLY_RIGHT), "{off:?}");
     }
 }

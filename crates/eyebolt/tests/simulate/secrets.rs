@@ -1,6 +1,6 @@
 //! The truth is in a record of its own, and nowhere else.
 
-use crate::stage::{Recorded, bytes, planned, small};
+use crate::stage::{Recorded, assert_same, bytes, planned, small};
 use eyebolt::simulate::Scenario;
 use mcap::records::Record;
 use std::collections::BTreeMap;
@@ -63,7 +63,7 @@ fn no_message_and_no_other_record_has_a_number_of_the_truth() {
 fn nothing_that_readers_tell_depends_on_the_truth_record() {
     let plan = planned(small());
     let whole = Recorded::of_plan(&plan);
-    assert_eq!(whole.truth.camera_from_base, plan.camera_from_base());
+    assert_same(&whole.truth.camera_from_base, &plan.camera_from_base());
     assert_eq!((whole.truth.seed, whole.truth.sensor.as_str()), (7, "ideal"));
     let mut bytes = bytes(&plan);
     // The same file with another number in the truth, which is text.

@@ -2,7 +2,7 @@
 
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Plan, Preset, Scenario, Viewpoint, plan};
-use eyebolt_geometry::{Base, Camera, DepthImage, Transform};
+use eyebolt_geometry::{Base, Camera, DepthImage, Frame, Transform};
 use eyebolt_recording::{BagOptions, Range, Recording, Truth, read_truth};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
@@ -111,4 +111,14 @@ impl Recorded {
 pub fn apart(a: &JointPositions, b: &JointPositions) -> f64 {
     assert!(a.iter().map(|(name, _)| name).eq(b.iter().map(|(name, _)| name)));
     a.iter().zip(b.iter()).map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Readers keep the path of the joints as a broken line, within 0.2 mrad of what was said.
+pub const AS_SAID: f64 = 2.1e-4;
+
+/// Checks that two poses are the same but for the last digits, which another spelling costs.
+#[track_caller]
+pub fn assert_same<To: Frame, From: Frame>(a: &Transform<To, From>, b: &Transform<To, From>) {
+    let apart = (a.matrix() - b.matrix()).amax();
+    assert!(apart < 1e-12, "{apart}: {a:?} {b:?}");
 }
