@@ -1,7 +1,7 @@
 //! The configurations that are chosen: possible ones, and such that the camera sees the hand.
 
 use crate::shapes::{self, Placed, seen};
-use crate::stage::{ARM, AS_SAID, CACHE, Recorded, apart, bytes, planned, preset, small};
+use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, bytes, planned, preset, small};
 use eyebolt::simulate::{Scenario, SimulateError, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_render::Sensor;
@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 /// Configurations from several places, with where the camera is.
 static CHOSEN: LazyLock<Vec<(JointPositions, Transform<Base, Camera>)>> = LazyLock::new(|| {
-    let views = ["paper-test-p1", "paper-test-p2", "paper-train-p3"].map(preset);
+    let views = ["paper-test-p1", "paper-train-p3"].map(preset);
     let anywhere = Viewpoint::Within(eyebolt::simulate::Ranges::default());
     let views = views.into_iter().chain([anywhere]).zip(20..);
     let chosen = views.flat_map(|(viewpoint, seed)| {
@@ -27,7 +27,7 @@ static CHOSEN: LazyLock<Vec<(JointPositions, Transform<Base, Camera>)>> = LazyLo
 fn joints_are_within_their_limits() {
     let robot = ARM.robot();
     let names = [ARM.required_joints(), ARM.other_joints()].concat();
-    assert_eq!(CHOSEN.len(), 24);
+    assert_eq!(CHOSEN.len(), 18);
     for (joints, _) in CHOSEN.iter() {
         assert!(joints.iter().map(|(name, _)| name).all(|name| names.contains(&name)));
         assert_eq!(joints.len(), 8, "seven joints and a finger: the other one follows");
@@ -118,8 +118,8 @@ fn touching_is_noticed() {
 
 #[test]
 fn the_whole_hand_is_in_sight() {
-    const STEP: usize = 4;
-    let camera = Sensor::IDEAL.camera();
+    const STEP: usize = 2;
+    let camera = SENSOR.camera();
     let hand = ARM.end_effector_links();
     for (joints, base_from_camera) in CHOSEN.iter() {
         let poses = ARM.link_poses(joints).unwrap();
@@ -143,7 +143,7 @@ fn the_whole_hand_is_in_sight() {
             seen.is_some_and(|(_, shape)| hand.contains(&placed[shape].link.unwrap()))
         });
         let pixels = of_hand.count() * STEP * STEP;
-        assert!(pixels > 500, "{pixels} pixels: {joints:?}");
+        assert!(pixels > 120, "{pixels} pixels: {joints:?}");
     }
 }
 

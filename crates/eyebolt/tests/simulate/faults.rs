@@ -1,8 +1,7 @@
 //! What goes wrong on purpose goes wrong where it should, and nowhere else.
 
-use crate::stage::{ARM, AS_SAID, CACHE, Recorded, apart, assert_same, planned, small};
+use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, assert_same, planned, small};
 use eyebolt::simulate::{Faults, Scenario, SimulateError, plan};
-use eyebolt_render::Sensor;
 use eyebolt_robot::JointPositions;
 use serde_json::json;
 use std::sync::LazyLock;
@@ -79,7 +78,7 @@ fn depth_is_scaled_and_shifted_backgrounds_too() {
 fn only_what_is_stated_of_the_intrinsics_is_wrong() {
     let faults = Faults { focal_scale: 0.98, centre_px: [3.0, -2.0], ..Faults::default() };
     let wrong = recorded(faults);
-    let (stated, camera) = (wrong.recording.camera().unwrap(), Sensor::IDEAL.camera());
+    let (stated, camera) = (wrong.recording.camera().unwrap(), SENSOR.camera());
     assert!((stated.fx() - 0.98 * camera.fx()).abs() < 1e-9);
     assert!((stated.fy() - 0.98 * camera.fy()).abs() < 1e-9);
     assert!((stated.cx() - camera.cx() - 3.0).abs() < 1e-9);

@@ -1,7 +1,7 @@
 //! What is written, as readers of recordings find it.
 
 use crate::shapes;
-use crate::stage::{AS_SAID, Recorded, apart, bytes, planned, small};
+use crate::stage::{AS_SAID, Recorded, SENSOR, apart, bytes, planned, small};
 use eyebolt::simulate::{Plan, Scenario};
 use eyebolt_render::Sensor;
 use nalgebra::Point2;
@@ -24,7 +24,7 @@ fn it_has_what_was_planned() {
         (Some("link0"), Some("hand"))
     );
     let camera = recorded.recording.camera().unwrap();
-    assert_eq!(camera, &Sensor::IDEAL.camera());
+    assert_eq!(camera, &SENSOR.camera());
     // Frames of one configuration have the same joints, those of another other ones.
     let joints = recorded.joints();
     for rest in joints.chunks(4) {
@@ -36,8 +36,8 @@ fn it_has_what_was_planned() {
 /// Largest distance of depth that is recorded from the formulas' at a grid of pixels, but for those
 /// at edges, metres; and how many pixels were compared.
 pub fn misfit(plan: &Plan<'_>, recorded: &Recorded, frame: usize) -> (f64, usize) {
-    const STEP: usize = 7;
-    let camera = Sensor::IDEAL.camera();
+    const STEP: usize = 4;
+    let camera = SENSOR.camera();
     let joints = recorded.recording.read_joints(frame).unwrap();
     let scene: Vec<_> = shapes::arm(&joints).into_iter().chain(shapes::room(plan)).collect();
     let depth = recorded.depth(frame);
@@ -72,7 +72,7 @@ fn depth_is_what_formulas_say() {
         assert_eq!(recorded.recording.in_millimetres(), in_millimetres);
         for frame in [0, 3] {
             let (worst, compared) = misfit(&plan, &recorded, frame);
-            assert!(worst < FLAT_SIDES_M && compared > 4000, "{worst} m of {compared}");
+            assert!(worst < FLAT_SIDES_M && compared > 3000, "{worst} m of {compared}");
         }
     }
 }
@@ -100,7 +100,7 @@ fn backgrounds_are_the_scene_without_the_arm() {
     assert!(pairs().all(|(behind, z)| *z <= behind + 1e-5));
     let same = pairs().filter(|(behind, z)| behind == z).count();
     let before = pairs().filter(|(behind, z)| **z < **behind - 0.02).count();
-    assert!(same > 200_000 && before > 10_000, "{same} {before}");
+    assert!(same > 50_000 && before > 2_500, "{same} {before}");
 }
 
 #[test]

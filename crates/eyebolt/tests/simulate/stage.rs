@@ -5,13 +5,17 @@ use eyebolt::simulate::{Faults, Plan, Preset, Scenario, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, DepthImage, Frame, Transform};
 use eyebolt_recording::{BagOptions, Range, Recording, Truth, read_truth};
 use eyebolt_registration::LinkCache;
-use eyebolt_render::Sensor;
+use eyebolt_render::{Mode, Sensor};
 use eyebolt_robot::{Arm, JointPositions};
 use std::io::Cursor;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 use tempfile::TempDir;
+
+/// A small image of a perfect camera: for what does not depend on the number of pixels.
+pub const SENSOR: Sensor =
+    Sensor { mode: Mode { width: 320, height: 240, focal_px: 262.5 }, ..Sensor::IDEAL };
 
 pub static ARM: LazyLock<Arm> = LazyLock::new(|| shackle().arm());
 
@@ -38,7 +42,7 @@ pub fn small() -> Scenario<'static> {
     Scenario {
         arm: &ARM,
         urdf: shackle().urdf,
-        sensor: Sensor::IDEAL,
+        sensor: SENSOR,
         viewpoint: preset("paper-test-p1"),
         configurations: 2,
         frames: 2,

@@ -1,18 +1,18 @@
 //! Things around the arm: beside it, and not between it and the camera.
 
 use crate::shapes;
-use crate::stage::{ARM, Recorded, planned, small};
+use crate::stage::{ARM, Recorded, SENSOR, planned, small};
 use eyebolt::simulate::{Plan, Scenario, Solid};
 use eyebolt_geometry::{Base, Camera, Link, Transform};
-use eyebolt_render::{RayScene, SceneMesh, Sensor, View};
+use eyebolt_render::{RayScene, SceneMesh, View};
 use eyebolt_robot::{JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::Point3;
 
-const SEEDS: [u64; 3] = [31, 32, 33];
+const SEEDS: [u64; 2] = [31, 32];
 const CLUTTER: usize = 8;
 
 fn cluttered(seed: u64) -> Plan<'static> {
-    planned(Scenario { clutter: CLUTTER, configurations: 4, frames: 1, seed, ..small() })
+    planned(Scenario { clutter: CLUTTER, configurations: 3, frames: 1, seed, ..small() })
 }
 
 fn is_clutter(solid: &&Solid) -> bool {
@@ -50,7 +50,7 @@ fn posed<'a>(meshes: &'a [TriangleMesh], joints: &JointPositions) -> Vec<SceneMe
 
 /// Pixels of the arm, and of its hand.
 fn pixels(meshes: &[SceneMesh<'_>], base_from_camera: &Transform<Base, Camera>) -> [usize; 2] {
-    let view: View = RayScene::new(meshes).view(&Sensor::IDEAL.camera(), base_from_camera);
+    let view: View = RayScene::new(meshes).view(&SENSOR.camera(), base_from_camera);
     let links = ARM.robot().links.len();
     let hand = ARM.end_effector_links();
     let arm = view.surface.iter().map(|surface| usize::from(*surface)).filter(|at| *at < links);
@@ -78,7 +78,7 @@ fn things_hide_little_of_the_arm() {
             let [all, hand] = pixels(&arm, &base_from_camera);
             let [all_seen, hand_seen] = pixels(&scene, &base_from_camera);
             let shares = [all_seen as f64 / all as f64, hand_seen as f64 / hand as f64];
-            assert!(shares[0] > 0.75 && hand_seen > 300, "{seed}: {shares:?} {hand_seen}");
+            assert!(shares[0] > 0.75 && hand_seen > 80, "{seed}: {shares:?} {hand_seen}");
         }
     }
 }
