@@ -65,7 +65,7 @@ fn what_is_there_stays() {
 fn bad_flags_are_wrong_usage() {
     for flags in [
         ["--sensor", "eye"],
-        ["--seed", "-1"],
+        ["--seed", "one"],
         ["--joint-offset-deg", "nan"],
         ["--joint-offset-deg", "-1"],
         ["--joint-offset-deg", "1e9"],

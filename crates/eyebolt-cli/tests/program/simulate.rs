@@ -11,10 +11,10 @@ use std::sync::LazyLock;
 /// A simulated recording, shared by all tests.
 pub static SIMULATED: LazyLock<PathBuf> = LazyLock::new(|| {
     let path = fresh("program-simulated").join("session.mcap");
-    let quick = ["--configurations", "4", "--frames", "3", "--backgrounds", "3", "--clutter", "3"];
+    let quick = ["--configurations", "5", "--frames", "3", "--backgrounds", "3", "--clutter", "3"];
     let ended = simulate(&path, &[&quick[..], &["--preset", "paper-test-p1"]].concat());
     assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
-    for line in ["4 configurations of 3 frames", "kinect-v1", "eyebolt evaluate", text(&path)] {
+    for line in ["5 configurations of 3 frames", "kinect-v1", "eyebolt evaluate", text(&path)] {
         assert!(ended.out.contains(line), "no {line:?} in: {}", ended.out);
     }
     path
@@ -48,8 +48,8 @@ fn it_is_an_ordinary_recording_that_info_finds_ready() {
     let ended = eyebolt(&["info", text(&SIMULATED), "--json"]);
     let info: serde_json::Value = serde_json::from_str(&ended.out).unwrap();
     assert_eq!(info["advice"].as_array().unwrap().len(), 0, "{info}");
-    assert_eq!((&info["frames"]["used"], &info["robot"]["base"]), (&12.into(), &"link0".into()));
-    assert_eq!(info["configurations"].as_array().unwrap().len(), 4);
+    assert_eq!((&info["frames"]["used"], &info["robot"]["base"]), (&15.into(), &"link0".into()));
+    assert_eq!(info["configurations"].as_array().unwrap().len(), 5);
 }
 
 #[test]
