@@ -1,7 +1,7 @@
 //! `eyebolt demo`.
 
 use crate::Ending;
-use crate::inputs::{CacheArguments, positive, use_threads};
+use crate::inputs::{CacheArguments, use_threads};
 use crate::output::{self, Destination};
 use crate::progress::{Bar, Waiting};
 use crate::simulate::{flags, record};
@@ -39,8 +39,9 @@ pub struct Arguments {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// How far each joint is from where it says, degrees: what becomes of it?
-    #[arg(long, value_name = "DEG", value_parser = positive)]
-    joint_offset_deg: Option<f64>,
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = flags::number(0.0, 90.0), allow_hyphen_values = true)]
+    joint_offset_deg: f64,
     /// Threads to use; otherwise one for each core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -67,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         backgrounds: 10,
         clutter: 8,
         faults: Faults {
-            joint_offset: arguments.joint_offset_deg.unwrap_or_default().to_radians(),
+            joint_offset: arguments.joint_offset_deg.to_radians(),
             ..Faults::default()
         },
         seed: arguments.seed,

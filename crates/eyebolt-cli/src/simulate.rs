@@ -70,13 +70,13 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         arm: &robot.arm,
         urdf: &robot.urdf,
         sensor: arguments.sensor,
-        viewpoint: arguments.camera.viewpoint()?,
+        viewpoint: arguments.camera.viewpoint(),
         configurations: usize::from(arguments.configurations),
         frames: usize::from(arguments.frames),
         moving_frames: usize::from(arguments.moving_frames),
         backgrounds: usize::from(arguments.backgrounds),
         clutter: usize::from(arguments.clutter),
-        faults: arguments.faults.faults()?,
+        faults: arguments.faults.faults(),
         seed: arguments.seed,
     };
     let waiting = Waiting::new("choosing configurations");

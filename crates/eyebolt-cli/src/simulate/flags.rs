@@ -69,6 +69,42 @@ impl RobotArguments {
     }
 }
 
+/// Parses a number from `low` to `high`.
+pub fn number(
+    low: f64,
+    high: f64,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text: &str| {
+        let found = text.trim().parse().ok().filter(|value| (low..=high).contains(value));
+        found.ok_or_else(|| format!("must be a number from {low} to {high}"))
+    }
+}
+
+/// Parses `LOW,HIGH`, or one number for both, each from `low` to `high`.
+fn range(
+    low: f64,
+    high: f64,
+) -> impl Fn(&str) -> Result<[f64; 2], String> + Clone + Send + Sync + 'static {
+    move |text: &str| {
+        let (least, greatest) = text.split_once(',').unwrap_or((text, text));
+        match (number(low, high)(least), number(low, high)(greatest)) {
+            (Ok(least), Ok(greatest)) if least <= greatest => Ok([least, greatest]),
+            _ => Err(format!("must be LOW,HIGH, or one number for both, from {low} to {high}")),
+        }
+    }
+}
+
+/// Parses two numbers, the second of which may be left out if it is 0, each within its limits.
+fn pair(
+    first: [f64; 2],
+    second: [f64; 2],
+) -> impl Fn(&str) -> Result<[f64; 2], String> + Clone + Send + Sync + 'static {
+    move |text: &str| {
+        let (one, other) = text.split_once(',').unwrap_or((text, "0"));
+        Ok([number(first[0], first[1])(one)?, number(second[0], second[1])(other)?])
+    }
+}
+
 /// Where the camera stands.
 #[derive(Debug, clap::Args)]
 pub struct CameraArguments {
@@ -77,14 +113,14 @@ pub struct CameraArguments {
           conflicts_with_all = ["distance_m", "azimuth_deg", "elevation_deg"])]
     preset: Option<&'static Preset>,
     /// Distance from the workspace: one number or a range [default: 0.95,1.5]
-    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', num_args = 1..=2)]
-    distance_m: Vec<f64>,
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range(0.2, 20.0), allow_hyphen_values = true)]
+    distance_m: Option<[f64; 2]>,
     /// Direction from the robot, from x toward y; 0 is before it [default: -109,109]
-    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', num_args = 1..=2, allow_negative_numbers = true)]
-    azimuth_deg: Vec<f64>,
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range(-400.0, 400.0), allow_hyphen_values = true)]
+    azimuth_deg: Option<[f64; 2]>,
     /// How steeply it looks down [default: 9,49]
-    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', num_args = 1..=2, allow_negative_numbers = true)]
-    elevation_deg: Vec<f64>,
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range(-90.0, 90.0), allow_hyphen_values = true)]
+    elevation_deg: Option<[f64; 2]>,
 }
 
 fn preset() -> impl TypedValueParser<Value = &'static Preset> {
@@ -93,35 +129,19 @@ fn preset() -> impl TypedValueParser<Value = &'static Preset> {
 }
 
 impl CameraArguments {
-    pub fn viewpoint(&self) -> Result<Viewpoint> {
+    pub fn viewpoint(&self) -> Viewpoint {
         if let Some(preset) = self.preset {
-            return Ok(Viewpoint::Preset(preset));
+            return Viewpoint::Preset(preset);
         }
         let ranges = Ranges::default();
-        let radians = |degrees: &f64| degrees.to_radians();
-        let azimuth: Vec<f64> = self.azimuth_deg.iter().map(radians).collect();
-        let elevation: Vec<f64> = self.elevation_deg.iter().map(radians).collect();
-        Ok(Viewpoint::Within(Ranges {
-            distance_m: range("--distance-m", &self.distance_m, ranges.distance_m, [0.2, 20.0])?,
-            azimuth: range("--azimuth-deg", &azimuth, ranges.azimuth, [-7.0, 7.0])?,
-            elevation: range("--elevation-deg", &elevation, ranges.elevation, [-1.6, 1.6])?,
+        let radians = |degrees: [f64; 2]| degrees.map(f64::to_radians);
+        Viewpoint::Within(Ranges {
+            distance_m: self.distance_m.unwrap_or(ranges.distance_m),
+            azimuth: self.azimuth_deg.map_or(ranges.azimuth, radians),
+            elevation: self.elevation_deg.map_or(ranges.elevation, radians),
             ..ranges
-        }))
+        })
     }
-}
-
-/// Two numbers, or one twice, within `allowed`.
-fn range(flag: &str, given: &[f64], default: [f64; 2], allowed: [f64; 2]) -> Result<[f64; 2]> {
-    let found = match given {
-        [] => return Ok(default),
-        [one] => [*one; 2],
-        [low, high, ..] => [*low, *high],
-    };
-    let within = |value: &f64| (allowed[0]..=allowed[1]).contains(value);
-    if !(found.iter().all(within) && found[0] <= found[1]) {
-        bail!("{flag}: not a range that a camera can be in. Give LOW,HIGH, such as the default");
-    }
-    Ok(found)
 }
 
 /// What goes wrong.
@@ -129,64 +149,50 @@ fn range(flag: &str, given: &[f64], default: [f64; 2], allowed: [f64; 2]) -> Res
 #[command(next_help_heading = "Faults")]
 pub struct FaultArguments {
     /// Factor of all depth
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0,
+          value_parser = number(0.1, 10.0), allow_hyphen_values = true)]
     depth_scale: f64,
     /// Added to all depth, millimetres
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", default_value_t = 0.0,
+          value_parser = number(-1000.0, 1000.0), allow_hyphen_values = true)]
     depth_offset_mm: f64,
     /// Factor of the focal lengths that the recording states
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0,
+          value_parser = number(0.1, 10.0), allow_hyphen_values = true)]
     focal_scale: f64,
     /// Added to the principal point that the recording states, pixels
-    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1..=2, allow_negative_numbers = true)]
-    centre_px: Vec<f64>,
+    #[arg(long, value_name = "X,Y",
+          value_parser = pair([-1e4, 1e4], [-1e4, 1e4]), allow_hyphen_values = true)]
+    centre_px: Option<[f64; 2]>,
     /// How far each joint is from where it says, one way or the other, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
     joint_offset_deg: f64,
     /// How far joints lag behind what they say, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
     backlash_deg: f64,
     /// Added to the stamps of depth, milliseconds
-    #[arg(long, value_name = "MS", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", default_value_t = 0.0,
+          value_parser = number(-900.0, 900_000.0), allow_hyphen_values = true)]
     time_skew_ms: f64,
     /// The camera is bumped after half of the configurations: by how much
-    #[arg(long, value_name = "MM,DEG", value_delimiter = ',', num_args = 1..=2)]
-    bump: Vec<f64>,
+    #[arg(long, value_name = "MM,DEG",
+          value_parser = pair([0.0, 1e4], [0.0, 180.0]), allow_hyphen_values = true)]
+    bump: Option<[f64; 2]>,
 }
 
 impl FaultArguments {
-    pub fn faults(&self) -> Result<Faults> {
-        let pair = |given: &[f64]| match given {
-            [] => None,
-            [one] => Some([*one, 0.0]),
-            [first, second, ..] => Some([*first, *second]),
-        };
-        let limits = [
-            ("--depth-scale", self.depth_scale, [0.1, 10.0]),
-            ("--depth-offset-mm", self.depth_offset_mm, [-1000.0, 1000.0]),
-            ("--focal-scale", self.focal_scale, [0.1, 10.0]),
-            ("--joint-offset-deg", self.joint_offset_deg, [0.0, 90.0]),
-            ("--backlash-deg", self.backlash_deg, [0.0, 90.0]),
-            ("--time-skew-ms", self.time_skew_ms, [-900.0, 900_000.0]),
-        ];
-        let lists = [("--centre-px", &self.centre_px, 1e4), ("--bump", &self.bump, 1e4)];
-        let listed = lists.into_iter().flat_map(|(flag, values, limit)| {
-            values.iter().map(move |value| (flag, *value, [-limit, limit]))
-        });
-        for (flag, value, [low, high]) in limits.into_iter().chain(listed) {
-            if !(low..=high).contains(&value) {
-                bail!("{flag}: {value} is out of range. Give a number from {low} to {high}");
-            }
-        }
-        Ok(Faults {
+    pub fn faults(&self) -> Faults {
+        Faults {
             depth_scale: self.depth_scale,
             depth_offset_m: 1e-3 * self.depth_offset_mm,
             focal_scale: self.focal_scale,
-            centre_px: pair(&self.centre_px).unwrap_or_default(),
+            centre_px: self.centre_px.unwrap_or_default(),
             joint_offset: self.joint_offset_deg.to_radians(),
             backlash: self.backlash_deg.to_radians(),
             time_skew_s: 1e-3 * self.time_skew_ms,
-            bump: pair(&self.bump).map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),
-        })
+            bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),
+        }
     }
 }

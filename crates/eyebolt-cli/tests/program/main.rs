@@ -2,7 +2,9 @@
 
 mod answer;
 mod convert;
+mod demo;
 mod desk;
+mod evaluate;
 mod export;
 mod files;
 mod good;
@@ -14,3 +16,5 @@ mod program;
 mod recording;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
+mod simulate;
+mod simulate_flags;

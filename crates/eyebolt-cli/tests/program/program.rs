@@ -16,7 +16,7 @@ pub static RECORDING: LazyLock<PathBuf> = LazyLock::new(|| {
 });
 
 /// Shapes of links, shared by all tests.
-static CACHE: LazyLock<PathBuf> = LazyLock::new(|| fresh("program-cache"));
+pub static CACHE: LazyLock<PathBuf> = LazyLock::new(|| fresh("program-cache"));
 
 /// A robot none of whose joints the recording has.
 const OTHER_URDF: &str = r#"<robot name="stranger">
@@ -49,10 +49,15 @@ impl Ended {
 
 /// Runs `eyebolt` with these arguments.
 pub fn eyebolt(arguments: &[&str]) -> Ended {
+    eyebolt_in(Path::new("."), arguments)
+}
+
+/// As [`eyebolt`], in another folder.
+pub fn eyebolt_in(folder: &Path, arguments: &[&str]) -> Ended {
     let mut command = Command::new(env!("CARGO_BIN_EXE_eyebolt"));
     // Other robots of whoever runs the tests are none of our business.
     command.env_remove("ROS_PACKAGE_PATH").env_remove("AMENT_PREFIX_PATH");
-    let output = command.args(arguments).output().unwrap();
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
     Ended {
         code: output.status.code(),
         out: String::from_utf8(output.stdout).unwrap(),

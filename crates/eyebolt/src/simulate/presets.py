@@ -2,7 +2,7 @@
 
 Where each camera is and where it looks is free but for the nine distances and nine angles between training and test
 poses; of what fits, the poses are taken that look at the workspace from P1 on one side, P2 in front and P3 on the
-other side, as the paper says. Needs numpy and scipy; prints the rows of presets.rs.
+other side, as the paper says. Needs numpy and scipy; prints the rows of viewpoint.rs.
 """
 import numpy as np
 from scipy.optimize import least_squares

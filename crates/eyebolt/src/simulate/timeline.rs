@@ -116,3 +116,86 @@ fn between(from: &JointPositions, to: &JointPositions, time: f64) -> JointPositi
     };
     to.iter().map(mix).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn joints(values: [f64; 2]) -> JointPositions {
+        [("a".to_owned(), values[0]), ("b".to_owned(), values[1])].into_iter().collect()
+    }
+
+    fn places() -> impl Strategy<Value = Vec<JointPositions>> {
+        proptest::collection::vec(proptest::array::uniform2(-3.0..3.0_f64), 1..5)
+            .prop_map(|places| places.into_iter().map(joints).collect())
+    }
+
+    fn is_frame(moment: &Moment) -> bool {
+        matches!(moment.event, Event::Frame { .. })
+    }
+
+    proptest! {
+        #[test]
+        fn stamps_rise_and_every_frame_is_between_two_joint_states(
+            places in places(), frames in 1..20_usize, moving in 0..40_usize, backgrounds in 0..5_usize,
+        ) {
+            let moments = moments(&places, frames, moving, backgrounds);
+            prop_assert!(moments[0].stamp_ns > background_stamp_ns(backgrounds));
+            prop_assert!(moments.is_sorted_by_key(|moment| moment.stamp_ns));
+            for of_kind in [true, false] {
+                let stamps: Vec<i64> =
+                    moments.iter().filter(|m| is_frame(m) == of_kind).map(|m| m.stamp_ns).collect();
+                prop_assert!(stamps.is_sorted_by(|a, b| a < b), "no two of one kind at once");
+            }
+            let taken = moments.iter().filter(|moment| is_frame(moment)).count();
+            prop_assert_eq!(taken, places.len() * frames + (places.len() - 1) * moving);
+            for (at, moment) in moments.iter().enumerate().filter(|(_, moment)| is_frame(moment)) {
+                let before = moments[..at].iter().rfind(|other| !is_frame(other)).unwrap();
+                let after = moments[at..].iter().find(|other| !is_frame(other)).unwrap();
+                prop_assert!(moment.stamp_ns - before.stamp_ns <= JOINTS_NS);
+                prop_assert!(after.stamp_ns - moment.stamp_ns <= JOINTS_NS);
+            }
+        }
+
+        /// Nothing moves from well before a frame at rest until well after it.
+        #[test]
+        fn frames_at_rest_see_an_arm_at_rest(places in places(), moving in 0..9_usize) {
+            let moments = moments(&places, 3, moving, 0);
+            for moment in &moments {
+                let Event::Frame { at_rest: Some(index) } = moment.event else { continue };
+                prop_assert_eq!(index, moment.configuration);
+                let near = moments.iter().filter(|other| {
+                    (other.stamp_ns - moment.stamp_ns).abs() < SETTLE_NS
+                });
+                for other in near {
+                    prop_assert_eq!(&other.joints, &places[index]);
+                }
+            }
+        }
+
+        /// A way begins where one configuration is and ends where the next is, slowly at both ends.
+        #[test]
+        fn ends_meet(from in proptest::array::uniform2(-3.0..3.0_f64), to in proptest::array::uniform2(-3.0..3.0_f64)) {
+            let (from, to) = (joints(from), joints(to));
+            prop_assert_eq!(&between(&from, &to, 0.0), &from);
+            let off = |a: &JointPositions, b: &JointPositions| {
+                a.iter().zip(b.iter()).map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, f64::max)
+            };
+            prop_assert!(off(&between(&from, &to, 1.0), &to) < 1e-12);
+            let way = off(&from, &to);
+            prop_assert!(off(&between(&from, &to, 0.01), &from) <= 1e-5 * way);
+            prop_assert!(off(&between(&from, &to, 0.99), &to) <= 1e-5 * way + 1e-12);
+            for share in [0.2, 0.35, 0.5] {
+                // As fast on one half of the way as on the other.
+                let (early, late) = (between(&from, &to, share), between(&to, &from, 1.0 - share));
+                prop_assert!(off(&early, &late) < 1e-12);
+            }
+            // Nobody who looks every 20 ms sees a jump.
+            let moments = moments(&[from, to], 1, 0, 0);
+            for pair in moments.windows(2) {
+                prop_assert!(off(&pair[0].joints, &pair[1].joints) <= 0.02 * way + 1e-12);
+            }
+        }
+    }
+}

@@ -123,3 +123,79 @@ fn looking_along(forward: &Vector3<f64>) -> UnitQuaternion<f64> {
     let axes = nalgebra::Matrix3::from_columns(&[x, z.cross(&x), z]);
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Point3;
+    use proptest::prelude::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn ordered(low: f64, high: f64) -> impl Strategy<Value = [f64; 2]> {
+        [low..high, low..high].prop_map(|[a, b]| [a.min(b), a.max(b)])
+    }
+
+    proptest! {
+        #[test]
+        fn cameras_stand_where_the_ranges_say(
+            seed: u64,
+            distance_m in ordered(0.3, 5.0),
+            azimuth in ordered(-PI, PI),
+            elevation in ordered(-1.5, 1.5),
+            askew in 0.0..0.3_f64,
+        ) {
+            let ranges = Ranges { distance_m, azimuth, elevation, askew };
+            let pose = Viewpoint::Within(ranges).base_from_camera(&mut Random::new(seed));
+            let away = pose.translation_m() - WORKSPACE_M;
+            let within = |value: f64, [low, high]: [f64; 2]| {
+                (low - 1e-9..=high + 1e-9).contains(&value)
+            };
+            prop_assert!(within(away.norm(), distance_m));
+            prop_assert!(within(away.y.atan2(away.x), azimuth));
+            prop_assert!(within((away.z / away.norm()).asin(), elevation));
+            // Two turns of `askew` at right angles take the axis off the workspace, the third none.
+            let workspace = pose.inverse().point(&Point3::from(WORKSPACE_M));
+            let off_axis = workspace.coords.xy().norm().atan2(workspace.z);
+            prop_assert!(off_axis <= 2f64.sqrt() * askew + 1e-9, "{off_axis}");
+        }
+
+        /// With nothing askew the workspace is in the middle, and rows of the image are level, with
+        /// what is up in the world up in the image.
+        #[test]
+        fn straight_cameras_are_level(seed: u64) {
+            let ranges = Ranges { askew: 0.0, ..Ranges::default() };
+            let pose = Viewpoint::Within(ranges).base_from_camera(&mut Random::new(seed));
+            let workspace = pose.inverse().point(&Point3::from(WORKSPACE_M));
+            prop_assert!(workspace.coords.xy().norm() < 1e-9 && workspace.z > 0.0);
+            let [x, y] = [Vector3::x(), Vector3::y()].map(|axis| pose.direction(&axis));
+            prop_assert!(x.z.abs() < 1e-9 && y.z < 0.0);
+        }
+
+        #[test]
+        fn any_direction_makes_a_rotation(direction in proptest::array::uniform3(-1.0..1.0_f64)) {
+            let forward = Vector3::from(direction);
+            prop_assume!(forward.norm() > 1e-3);
+            let turn = looking_along(&forward);
+            prop_assert!((turn * Vector3::z() - forward.normalize()).norm() < 1e-9);
+            prop_assert!((turn.norm() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn straight_down_and_up_are_directions_too() {
+        for forward in [Vector3::z(), -Vector3::z()] {
+            assert!((looking_along(&forward) * Vector3::z() - forward).norm() < 1e-12);
+        }
+        let ranges = Ranges { elevation: [FRAC_PI_2; 2], askew: 0.0, ..Ranges::default() };
+        let pose = Viewpoint::Within(ranges).base_from_camera(&mut Random::new(1));
+        assert!((pose.direction(&Vector3::z()) + Vector3::z()).norm() < 1e-9);
+    }
+
+    #[test]
+    fn presets_need_no_random_numbers() {
+        for preset in PRESETS {
+            let pose = Viewpoint::Preset(preset).base_from_camera(&mut Random::new(3));
+            assert_eq!(pose, preset.base_from_camera());
+        }
+    }
+}

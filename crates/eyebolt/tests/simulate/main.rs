@@ -1,0 +1,15 @@
+//! Recordings of an arm that is not there, held against what must be true of them: by the published
+//! kinematics, by distances to plain shapes, and by what the readers of recordings make of them.
+
+mod answers;
+mod configurations;
+mod evaluation;
+mod faults;
+mod motion;
+mod presets;
+mod recording;
+mod robot;
+mod secrets;
+mod shapes;
+mod stage;
+mod surroundings;
