@@ -10,7 +10,7 @@ use anyhow::{Context as _, Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Limits, Verdict};
 use eyebolt::evaluate::Evaluation;
-use eyebolt::pipeline::{self, Request};
+use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::record::RecordOptions;
 use eyebolt::report::{Context, Picture, TruthComparison, html, overlays};
 use eyebolt::robots::BuiltIn;
@@ -24,9 +24,6 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Options of `eyebolt demo`.
-///
-/// An arm and a depth camera are simulated, the camera's pose is found from what it saw, and compared
-/// with where it really was. Nothing is needed for it, and nothing leaves this machine.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Folder for what it makes; otherwise eyebolt-demo, or the next such name that is free
@@ -43,7 +40,7 @@ pub struct Arguments {
           value_parser = flags::number(0.0, 90.0), allow_hyphen_values = true)]
     joint_offset_deg: f64,
     /// Threads to use; otherwise one for each core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(flatten)]
     cache: CacheArguments,
@@ -76,8 +73,12 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let waiting = Waiting::new("choosing configurations");
     let plan = plan(scenario, &cache)?;
     drop(waiting);
-    let session = folder.join("session.mcap");
-    record(&plan, &session, false)?;
+    let session = folder.join(SESSION);
+    if let Err(error) = record(&plan, &session, false) {
+        // Only if nothing is in it.
+        let _ = std::fs::remove_dir(&folder);
+        return Err(error);
+    }
     output::say(&format!(
         "1. simulated: {},\n   seen by {}; 6 configurations of 10 frames -> {}",
         robot.about().description,
@@ -89,7 +90,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
 
 /// The folder that was asked for, or a new one.
 fn folder(asked: Option<&Path>) -> Result<PathBuf> {
-    let free = |path: &PathBuf| !path.exists();
+    let empty = |path: &PathBuf| path.read_dir().is_ok_and(|mut entries| entries.next().is_none());
+    let free = |path: &PathBuf| !path.exists() || empty(path);
     if let Some(path) = asked {
         let path = path.to_owned();
         if !free(&path) {
@@ -109,7 +111,7 @@ fn calibrate(
     folder: &Path,
     truth: &Transform<Camera, Base>,
 ) -> Result<Ending> {
-    let session = folder.join("session.mcap");
+    let session = folder.join(SESSION);
     let begun = Instant::now();
     let bar = Bar::new();
     let recording = Recording::open(&session, &BagOptions::default())?;
@@ -134,20 +136,34 @@ fn calibrate(
         ),
         None => "\n3. no pose was found, so there is nothing to compare".to_owned(),
     });
-    let report = folder.join("report.html");
-    let pictures: Vec<Picture> = overlays(&outcome, |_| None).collect();
+    let report = report(folder, &answer, &outcome, evaluation)?;
+    output::say(&format!("4. the report, to open in a browser -> {}\n\n{NEXT}", report.display()));
+    Ok(if trusted { Ending::Done } else { Ending::Refused })
+}
+
+/// Writes the report; its path.
+fn report(
+    folder: &Path,
+    answer: &Answer,
+    outcome: &Outcome,
+    evaluation: Option<Evaluation>,
+) -> Result<PathBuf> {
+    let pictures: Vec<Picture> = overlays(outcome, |_| None).collect();
     let context = Context {
-        recording: &session.display().to_string(),
+        recording: &folder.join(SESSION).display().to_string(),
         pictures: &pictures,
         truth: evaluation.map(|evaluation| TruthComparison {
             translation_mm: evaluation.translation_mm,
             rotation_deg: evaluation.rotation_deg,
         }),
     };
-    output::write_whole(&report, html(&answer, &outcome, &context).as_bytes(), false)?;
-    output::say(&format!("4. the report, to open in a browser -> {}\n\n{NEXT}", report.display()));
-    Ok(if trusted { Ending::Done } else { Ending::Refused })
+    let path = folder.join("report.html");
+    output::write_whole(&path, html(answer, outcome, &context).as_bytes(), false)?;
+    Ok(path)
 }
+
+/// Name of the recording in the demo's folder.
+const SESSION: &str = "session.mcap";
 
 const NEXT: &str = "\
 With your own arm: let it rest in six or more configurations that look different to the camera,

@@ -2,16 +2,14 @@
 
 use crate::Ending;
 use crate::output;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use eyebolt::evaluate::{Evaluation, evaluate};
-use eyebolt::export::SavedCalibration;
-use eyebolt_recording::read_truth;
+use eyebolt::export::{ExportError, SavedCalibration};
+use eyebolt_recording::{Truth, read_truth};
 use serde::Serialize;
 use std::path::PathBuf;
 
 /// Options of `eyebolt evaluate`.
-///
-/// Refused calibrations are evaluated too: whether they were refused is part of the answer.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Recording that `eyebolt simulate` made, or its truth.json
@@ -25,8 +23,10 @@ pub struct Arguments {
 
 #[derive(Serialize)]
 struct Line {
-    #[serde(flatten)]
-    evaluation: Evaluation,
+    /// `null` where the calibration found no pose.
+    translation_mm: Option<f64>,
+    rotation_deg: Option<f64>,
+    camera_position_mm: Option<f64>,
     trusted: bool,
     /// Against the poses that the camera had later, if it was bumped.
     #[serde(skip_serializing_if = "<[Evaluation]>::is_empty")]
@@ -37,20 +37,45 @@ struct Line {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     let truth = read_truth(&arguments.session)?;
     let calibration = SavedCalibration::read(&arguments.calibration)?;
+    check_base(arguments, &truth, &calibration)?;
     let trusted = calibration.refused().is_none();
-    let base_from_camera = calibration.base_from_camera(true)?;
-    let evaluations = evaluate(&base_from_camera.inverse(), &truth);
-    let (first, after) = evaluations.split_first().expect("the first pose is always known");
+    let evaluations = match calibration.base_from_camera(true) {
+        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
+        Err(ExportError::NoPose { .. }) => Vec::new(),
+        Err(error) => return Err(error.into()),
+    };
+    let first = evaluations.first();
     if arguments.json {
-        let line = Line { evaluation: *first, trusted, after_bump: after.to_vec() };
+        let line = Line {
+            translation_mm: first.map(|first| first.translation_mm),
+            rotation_deg: first.map(|first| first.rotation_deg),
+            camera_position_mm: first.map(|first| first.camera_position_mm),
+            trusted,
+            after_bump: evaluations.iter().skip(1).copied().collect(),
+        };
         output::deliver(format!("{}\n", serde_json::to_string(&line)?).as_bytes())?;
     } else {
-        output::say(&text(first, after, trusted));
+        output::say(&text(&evaluations, trusted));
     }
     Ok(Ending::Done)
 }
 
-fn text(first: &Evaluation, after: &[Evaluation], trusted: bool) -> String {
+/// Poses of different links are not to be compared.
+fn check_base(arguments: &Arguments, truth: &Truth, calibration: &SavedCalibration) -> Result<()> {
+    let base = calibration.base_frame.as_str();
+    if base != truth.base {
+        bail!(
+            "{}: frames.base: the calibration is of {base:?}, and the truth of {:?}. Calibrate with \
+             --base {}, or give the calibration of this recording",
+            arguments.calibration.display(),
+            truth.base,
+            truth.base
+        );
+    }
+    Ok(())
+}
+
+fn text(evaluations: &[Evaluation], trusted: bool) -> String {
     let row = |evaluation: &Evaluation| {
         format!(
             "{:.2} mm and {:.3} deg off in camera_from_base; the camera itself {:.2} mm",
@@ -58,6 +83,9 @@ fn text(first: &Evaluation, after: &[Evaluation], trusted: bool) -> String {
         )
     };
     let verdict = if trusted { "trusted" } else { "REFUSED" };
+    let Some((first, after)) = evaluations.split_first() else {
+        return format!("{verdict}: no pose was found, so there is none to evaluate");
+    };
     let mut text = format!("{verdict}: {}", row(first));
     for later in after {
         text += &format!("\nagainst where the camera was bumped to: {}", row(later));

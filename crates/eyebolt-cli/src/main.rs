@@ -28,6 +28,9 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// See it work: simulate an arm and a camera, calibrate them from nothing, compare with the truth
+    ///
+    /// Nothing is needed for it, and nothing leaves this machine. The recording, the calibration and a
+    /// report are left in a folder.
     Demo(demo::Arguments),
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(calibrate::Arguments),
@@ -36,8 +39,13 @@ enum Command {
     /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
     Convert(convert::Arguments),
     /// Record an arm and a depth camera that are not there, to try everything without a robot
+    ///
+    /// The recording is an ordinary one, for `eyebolt calibrate` and everybody else. Where the camera
+    /// really was is in a record of its own, which only `eyebolt evaluate` reads.
     Simulate(simulate::Arguments),
     /// Say how far a calibration of a simulated recording is from the truth
+    ///
+    /// Refused calibrations are evaluated too: whether they were refused is part of the answer.
     Evaluate(evaluate::Arguments),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),

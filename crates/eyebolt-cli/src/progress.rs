@@ -6,8 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// A progress bar on standard error (nothing if that is not a terminal) that keeps time.
@@ -83,30 +82,44 @@ impl Drop for Waiting {
     }
 }
 
-/// Shows how far the work is, and ends it on Ctrl-C.
+/// How many [`Counting`] are there to end their work on Ctrl-C, and whether they were asked to.
+static LISTENING: AtomicUsize = AtomicUsize::new(0);
+static STOPPED: AtomicBool = AtomicBool::new(false);
+/// What shells expect of a program that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
+
+/// Shows how far the work is, and ends it on Ctrl-C; a second one, or one after that, ends the
+/// program as ever.
 pub struct Counting {
     bar: ProgressBar,
-    stopped: Arc<AtomicBool>,
 }
 
 impl Counting {
     /// Listens for Ctrl-C.
     pub fn new() -> Result<Self> {
-        let stopped = Arc::new(AtomicBool::new(false));
-        let seen = Arc::clone(&stopped);
-        ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed))
+        static INSTALLED: AtomicBool = AtomicBool::new(false);
+        if !INSTALLED.swap(true, Ordering::SeqCst) {
+            #[allow(clippy::disallowed_methods, reason = "what Ctrl-C does without a handler")]
+            ctrlc::set_handler(|| {
+                let again = STOPPED.swap(true, Ordering::SeqCst);
+                if again || LISTENING.load(Ordering::SeqCst) == 0 {
+                    std::process::exit(INTERRUPTED);
+                }
+            })
             .context("cannot listen for Ctrl-C")?;
+        }
+        LISTENING.fetch_add(1, Ordering::SeqCst);
         let bar = ProgressBar::new(0);
         let style = ProgressStyle::with_template("{bar:24} {percent}% {elapsed}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Ok(Self { bar, stopped })
+        Ok(Self { bar })
     }
 
     /// How much of how much is done; whether to go on.
     pub fn tell(&self, done: usize, total: usize) -> ControlFlow<()> {
         self.bar.set_length(total as u64);
         self.bar.set_position(done as u64);
-        match self.stopped.load(Ordering::Relaxed) {
+        match STOPPED.load(Ordering::SeqCst) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -115,6 +128,7 @@ impl Counting {
 
 impl Drop for Counting {
     fn drop(&mut self) {
+        LISTENING.fetch_sub(1, Ordering::SeqCst);
         self.bar.finish_and_clear();
     }
 }

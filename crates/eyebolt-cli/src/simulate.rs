@@ -15,9 +15,6 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt simulate`.
-///
-/// The recording is an ordinary one, for `eyebolt calibrate` and everybody else. Where the camera
-/// really was is in a record of its own, which only `eyebolt evaluate` reads.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -28,19 +25,19 @@ pub struct Arguments {
     #[command(flatten)]
     camera: CameraArguments,
     /// How many configurations the arm rests in
-    #[arg(long, value_name = "COUNT", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "COUNT", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..=200))]
     configurations: u16,
     /// Frames of each configuration
     #[arg(long, value_name = "COUNT", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     frames: u16,
     /// Frames taken while the arm moves from one configuration to the next
-    #[arg(long, value_name = "COUNT", default_value_t = 0)]
+    #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
     moving_frames: u16,
     /// Frames without the arm, taken before
-    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    #[arg(long, value_name = "COUNT", default_value_t = 10, value_parser = clap::value_parser!(u16).range(0..=1000))]
     backgrounds: u16,
     /// Things that stand about: boxes, bottles, balls, cables, people
-    #[arg(long, value_name = "COUNT", default_value_t = 8)]
+    #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(0..=50))]
     clutter: u16,
     /// Seed of all random choices; the same seed gives the same bytes on any number of threads
     #[arg(long, default_value_t = 1)]
@@ -52,7 +49,7 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
     /// Threads to use; otherwise one for each core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(flatten)]
     cache: CacheArguments,
@@ -102,10 +99,21 @@ pub fn record(plan: &Plan<'_>, path: &Path, force: bool) -> Result<()> {
 
 fn summary(arguments: &Arguments) -> String {
     let Arguments { configurations, frames, sensor, output, .. } = arguments;
-    let path = output.display();
+    let path = quoted(&output.display().to_string());
+    let robot = arguments.robot.to_calibrate();
     format!(
-        "{configurations} configurations of {frames} frames by a simulated {sensor}, written to \
-         {path}\n\ncalibrate it, and see how far off that is:\n  eyebolt calibrate {path} -o \
-         calibration.json\n  eyebolt evaluate {path} calibration.json"
+        "{configurations} x {frames} frames by a simulated {sensor}, written to {}\n\ncalibrate it, and \
+         see how far off that is:\n  eyebolt calibrate {path}{robot} -o calibration.json\n  eyebolt \
+         evaluate {path} calibration.json",
+        output.display()
     )
+}
+
+/// `text` as one word of a shell.
+pub fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,@%".contains(c);
+    match text.chars().all(plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', "'\\''")),
+    }
 }

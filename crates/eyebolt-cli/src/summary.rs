@@ -23,6 +23,9 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let count = answer.spare_configurations;
         let _ = writeln!(text, "  {count} more configurations not needed (--max-configurations)");
     }
+    if answer.background == Some("of_another_scene") {
+        let _ = writeln!(text, "  frames without the arm show another scene: not used");
+    }
     if let Some(seconds) = answer.clock_offset_s {
         let _ =
             writeln!(text, "  stamps of depth and joints are {seconds:.3} s apart: made up for");

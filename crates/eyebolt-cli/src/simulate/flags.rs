@@ -1,5 +1,6 @@
 //! Flags that say what to simulate.
 
+use super::quoted;
 use crate::inputs::packages;
 use anyhow::{Context, Result, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -40,6 +41,17 @@ pub struct DescribedArm {
 }
 
 impl RobotArguments {
+    /// The flags that the recording does not make up for: meshes are not part of it.
+    pub fn to_calibrate(&self) -> String {
+        if BuiltIn::named(&self.robot).is_some() {
+            return String::new();
+        }
+        let robot = format!(" --robot {}", quoted(&self.robot));
+        let packages =
+            self.package_path.iter().map(|path| format!(" --package-path {}", quoted(path)));
+        robot + &packages.collect::<String>()
+    }
+
     pub fn read(&self) -> Result<DescribedArm> {
         let (robot, urdf, about) = match BuiltIn::named(&self.robot) {
             Some(known) => {
@@ -168,7 +180,7 @@ pub struct FaultArguments {
     #[arg(long, value_name = "DEG", default_value_t = 0.0,
           value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
     joint_offset_deg: f64,
-    /// How far joints lag behind what they say, degrees
+    /// Play of the joints' gears, degrees: joints lag by half of it, whichever way they came
     #[arg(long, value_name = "DEG", default_value_t = 0.0,
           value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
     backlash_deg: f64,
@@ -176,7 +188,7 @@ pub struct FaultArguments {
     #[arg(long, value_name = "MS", default_value_t = 0.0,
           value_parser = number(-900.0, 900_000.0), allow_hyphen_values = true)]
     time_skew_ms: f64,
-    /// The camera is bumped after half of the configurations: by how much
+    /// The camera is bumped after half of the configurations, by so many millimetres and degrees
     #[arg(long, value_name = "MM,DEG",
           value_parser = pair([0.0, 1e4], [0.0, 180.0]), allow_hyphen_values = true)]
     bump: Option<[f64; 2]>,

@@ -26,13 +26,17 @@ pub fn room(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
     let [x, y] = TABLE_MIDDLE_M;
     let [half_x, half_y] = TABLE_HALF_M;
     let mut solids = vec![
-        cuboid([x, y, top - 0.02], [2.0 * half_x, 2.0 * half_y, 0.04]),
-        cuboid([0.0, 0.0, -TABLE_HEIGHT_M - 0.05], [2.0 * ROOM_HALF_M, 2.0 * ROOM_HALF_M, 0.1]),
+        cuboid("table", [x, y, top - 0.02], [2.0 * half_x, 2.0 * half_y, 0.04]),
+        cuboid(
+            "floor",
+            [0.0, 0.0, -TABLE_HEIGHT_M - 0.05],
+            [2.0 * ROOM_HALF_M, 2.0 * ROOM_HALF_M, 0.1],
+        ),
     ];
     let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
     solids.extend(corners.map(|[sx, sy]| {
         let at = [x + 0.9 * sx * half_x, y + 0.9 * sy * half_y, top - 0.5 * TABLE_HEIGHT_M];
-        cuboid(at, [0.06, 0.06, TABLE_HEIGHT_M])
+        cuboid("leg", at, [0.06, 0.06, TABLE_HEIGHT_M])
     }));
     // Walls on all four sides, at a distance of their own.
     for (axis, sign) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)] {
@@ -42,7 +46,7 @@ pub fn room(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
         size[2] = 3.4;
         at[axis] = sign * far;
         size[axis] = 0.1;
-        solids.push(cuboid(at, size));
+        solids.push(cuboid("wall", at, size));
     }
     solids
 }
@@ -73,7 +77,7 @@ fn crate_on_table(random: &mut Random) -> Solid {
     let at = on_table(random, 0.15) + Vector3::new(0.0, 0.0, 0.5 * size[2]);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), random.between(0.0, 3.0));
     let body = Body { link_from_body: Transform::from_parts(at, turn), shape: Shape::Box { size } };
-    Solid::new(&[body])
+    Solid::new("box", &[body])
 }
 
 fn bottle(random: &mut Random) -> Solid {
@@ -81,19 +85,22 @@ fn bottle(random: &mut Random) -> Solid {
     let at = on_table(random, 0.10);
     let at_height = |z: f64| at + Vector3::new(0.0, 0.0, z);
     let neck = 0.3 * length;
-    Solid::new(&[
-        place(at_height(0.5 * length), Shape::Cylinder { radius, length }),
-        place(
-            at_height(length + 0.5 * neck),
-            Shape::Cylinder { radius: 0.35 * radius, length: neck },
-        ),
-    ])
+    Solid::new(
+        "bottle",
+        &[
+            place(at_height(0.5 * length), Shape::Cylinder { radius, length }),
+            place(
+                at_height(length + 0.5 * neck),
+                Shape::Cylinder { radius: 0.35 * radius, length: neck },
+            ),
+        ],
+    )
 }
 
 fn ball(random: &mut Random) -> Solid {
     let radius = random.between(0.03, 0.11);
     let at = on_table(random, 0.12) + Vector3::new(0.0, 0.0, radius);
-    Solid::new(&[place(at, Shape::Sphere { radius })])
+    Solid::new("ball", &[place(at, Shape::Sphere { radius })])
 }
 
 /// A cable that lies on the table in bends.
@@ -108,7 +115,7 @@ fn cable(random: &mut Random) -> Solid {
         bodies.push(rod(&at, &next, radius));
         at = next;
     }
-    Solid::new(&bodies)
+    Solid::new("cable", &bodies)
 }
 
 /// Somebody standing beside the table, arms hanging.
@@ -140,7 +147,7 @@ fn person(random: &mut Random) -> Solid {
         bodies.push(limb(at(0.0, 0.125 * side, 0.79), at(0.01, 0.14 * side, 0.63), 0.027));
         bodies.push(limb(at(0.01, 0.14 * side, 0.62), at(0.06, 0.13 * side, 0.44), 0.022));
     }
-    Solid::new(&bodies)
+    Solid::new("person", &bodies)
 }
 
 /// A capsule from `a` to `b`.
@@ -154,6 +161,6 @@ fn rod(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Body {
     }
 }
 
-fn cuboid(middle: [f64; 3], size: [f64; 3]) -> Solid {
-    Solid::new(&[place(Vector3::from(middle), Shape::Box { size })])
+fn cuboid(name: &'static str, middle: [f64; 3], size: [f64; 3]) -> Solid {
+    Solid::new(name, &[place(Vector3::from(middle), Shape::Box { size })])
 }

@@ -7,6 +7,8 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 /// A thing that does not move.
 #[derive(Clone, Debug)]
 pub struct Solid {
+    /// What it is, for people.
+    pub name: &'static str,
     /// Its surface, base frame.
     pub mesh: TriangleMesh,
 }
@@ -17,16 +19,16 @@ impl Solid {
     /// # Panics
     ///
     /// With a body that is a mesh file, or that has no size.
-    pub fn new(bodies: &[Body]) -> Self {
+    pub fn new(name: &'static str, bodies: &[Body]) -> Self {
         let link = Link {
-            name: String::new(),
+            name: name.to_owned(),
             parent: None,
             visuals: bodies.to_vec(),
             collisions: Vec::new(),
         };
         let mesh = link_mesh(&link, Prefer::Visual);
         let mesh = mesh.ok().flatten().expect("plain shapes have triangles");
-        Self { mesh }
+        Self { name, mesh }
     }
 
     /// Corners of the box around it, base frame, metres.

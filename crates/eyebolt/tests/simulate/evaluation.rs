@@ -71,6 +71,7 @@ proptest! {
             camera_from_base: *pose,
         });
         let truth = Truth {
+            base: "link0".to_owned(),
             robot: "shackle".to_owned(),
             sensor: "ideal".to_owned(),
             preset: None,

@@ -79,6 +79,13 @@ pub(super) fn notes(answer: &Answer) -> Vec<String> {
             answer.assumed_joints.join(", ")
         ));
     }
+    if answer.background == Some("of_another_scene") {
+        notes.push(
+            "The frames without the arm show another scene, or this one from another place: they were \
+             not used. Record them again with the camera where it is now."
+                .to_owned(),
+        );
+    }
     if let Some(seconds) = answer.clock_offset_s {
         notes.push(format!(
             "The clocks of depth and joints were {seconds:.3} s apart; stamps of depth were shifted by \

@@ -49,9 +49,15 @@ pub(in super::super) fn rows(
     svg.finish(name, label)
 }
 
+/// Fewer numbers than this have no distribution.
+const FEW: usize = 20;
+
 /// About zero, as far as the rows reach, but for their tails.
 fn range(rows: &[Row], farthest: f32) -> [f32; 2] {
-    let ends = rows.iter().flat_map(|row| [TAIL, 1.0 - TAIL].map(|q| row.spread.quantile(q)));
+    let ends = rows
+        .iter()
+        .filter(|row| row.spread.count() >= FEW)
+        .flat_map(|row| [TAIL, 1.0 - TAIL].map(|q| row.spread.quantile(q)));
     let reach = ends.flatten().fold(0.0f32, |reach, end| reach.max(end.abs()));
     let reach = (1.1 * reach).clamp(0.1 * farthest, farthest);
     [-reach, reach]
@@ -60,10 +66,16 @@ fn range(rows: &[Row], farthest: f32) -> [f32; 2] {
 fn draw(svg: &mut Svg, row: &Row, unit: &str, axis: &Axis, y: f32) {
     let class = if row.muted { "mark muted" } else { "mark" };
     let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| row.spread.quantile(share));
-    let Some([low, lower, median, upper, high]) = all(quantiles) else {
-        return svg.group(class, &format!("{}: nothing was seen", row.label), |svg| {
+    let count = row.spread.count();
+    let known = all(quantiles).filter(|_| count >= FEW);
+    let Some([low, lower, median, upper, high]) = known else {
+        let (seen, few) = match count {
+            0 => ("nothing was seen".to_owned(), "none"),
+            _ => (format!("hardly seen: {count} points"), "few"),
+        };
+        return svg.group(class, &format!("{}: {seen}", row.label), |svg| {
             svg.text("label", [axis.place[0] - 8.0, y + 4.0], Anchor::End, &short(&row.label));
-            svg.text("value", [WIDTH, y + 4.0], Anchor::End, "none");
+            svg.text("value", [WIDTH, y + 4.0], Anchor::End, few);
         });
     };
     let [a, b, middle, c, d] = [low, lower, median, upper, high].map(|v| signed(v.into(), 1));
