@@ -12,11 +12,13 @@ mod scene;
 mod solids;
 mod surroundings;
 mod timeline;
+mod true_view;
 mod viewpoint;
 
 pub use configurations::Rejected;
 pub use faults::Faults;
 pub use solids::Solid;
+pub use true_view::TrueView;
 pub use viewpoint::{PRESETS, Preset, Ranges, Viewpoint};
 
 use crate::record::RecordError;

@@ -14,7 +14,7 @@ use nalgebra::Point3;
 pub(super) struct ArmBody<'a> {
     pub(super) arm: &'a Arm,
     /// Which links of the robot the model's are.
-    links: Vec<usize>,
+    pub(super) links: Vec<usize>,
     pub(super) model: ArmModel,
     /// The links' surfaces as they are, not simplified.
     meshes: Vec<TriangleMesh>,

@@ -5,6 +5,7 @@ mod answers;
 mod configurations;
 mod evaluation;
 mod faults;
+mod labels;
 mod motion;
 mod presets;
 mod recording;
