@@ -1,6 +1,9 @@
 //! What a network is run on: features, and who is whose neighbour.
 
+mod points;
 mod voxels;
+
+pub use points::Sampling;
 
 use crate::coordinates::KernelMap;
 use crate::graph::{Graph, MapId};

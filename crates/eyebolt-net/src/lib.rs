@@ -6,16 +6,20 @@ mod cpu;
 mod error;
 mod executor;
 pub mod graph;
+pub mod losses;
 mod matrix;
 pub mod models;
 mod parameters;
 mod random;
 pub mod reference;
 mod row_map;
+pub mod sampling;
 #[doc(hidden)]
 pub mod simd;
+pub mod training;
+pub mod weights;
 
-pub use batch::Batch;
+pub use batch::{Batch, Sampling};
 pub use cpu::Cpu;
 pub use error::Error;
 pub use executor::{Executor, Forward, Gradients};

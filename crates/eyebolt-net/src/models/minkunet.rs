@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize};
 /// Slope of negative values in heads.
 const HEAD_SLOPE: f32 = 0.01;
 
+/// More channels, or blocks, are a mistake, or malice.
+const MOST: usize = 1 << 12;
+
 /// What a stage is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -149,8 +152,29 @@ impl MinkUNet {
         Ok(g.finish(&[x]))
     }
 
+    fn check(&self) -> Result<(), Error> {
+        let hidden = match &self.head {
+            Head::Convolution => &[][..],
+            Head::Hidden(widths) => widths,
+        };
+        let more = [self.stem_channels, self.inputs, self.outputs];
+        let mut counts = self.channels.iter().chain(&more).chain(&self.layers).chain(hidden);
+        match counts.find(|count| !(1..=MOST).contains(*count)) {
+            Some(count) => {
+                let problem = format!("{count} channels or layers; there must be 1 to {MOST}");
+                Err(Error::network("minkunet", problem))
+            }
+            None if !matches!(self.stem_kernel, 1 | 3 | 5 | 7) => {
+                let problem = format!("stem_kernel {}; it is 1, 3, 5 or 7", self.stem_kernel);
+                Err(Error::network("minkunet", problem))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Values of strides 1, 2, 4, 8 and 16.
     fn encoder(&self, g: &mut GraphBuilder) -> Result<Vec<NodeId>, Error> {
+        self.check()?;
         let input = g.input(Source::Features, Domain::Voxels { stride: 1 }, self.inputs);
         let stem = KernelSpec { kernel: Kernel::new(self.stem_kernel), from: 1, to: 1 };
         let mut x = convolution_norm_relu(g, "conv0p1s1", "bn0", input, stem, self.stem_channels)?;

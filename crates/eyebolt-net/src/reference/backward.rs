@@ -34,8 +34,7 @@ pub fn backward<T: Real>(
                 for_each_pair(map, rows, |offset, from, to| {
                     for (k, &value) in input.row(from).iter().enumerate() {
                         let at = (offset * input.channels() + k) * width;
-                        for c in 0..width {
-                            let g = gradient.row(to)[c];
+                        for (c, &g) in gradient.row(to).iter().enumerate() {
                             of_parameters[weight.0][at + c] += value * g;
                             of[first.0].values_mut()[from * input.channels() + k] +=
                                 parameters[weight.0][at + c] * g;
@@ -44,8 +43,8 @@ pub fn backward<T: Real>(
                 });
                 if let Some(bias) = bias {
                     for row in 0..rows {
-                        for c in 0..width {
-                            of_parameters[bias.0][c] += gradient.row(row)[c];
+                        for (sum, &g) in of_parameters[bias.0].iter_mut().zip(gradient.row(row)) {
+                            *sum += g;
                         }
                     }
                 }

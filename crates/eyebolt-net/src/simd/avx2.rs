@@ -1,5 +1,7 @@
 //! AVX2 with fused multiply-add: tiles of six rows by two registers of eight.
 #![allow(unsafe_code)]
+// Rows and registers of a tile are numbered; iterators over both hide which is which.
+#![allow(clippy::needless_range_loop)]
 
 use super::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{

@@ -1,5 +1,7 @@
 //! AVX-512: tiles of six rows by up to four registers of sixteen.
 #![allow(unsafe_code)]
+// Rows and registers of a tile are numbered; iterators over both hide which is which.
+#![allow(clippy::needless_range_loop)]
 
 use super::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{

@@ -1,5 +1,7 @@
 //! NEON: tiles of six rows by four registers of four.
 #![allow(unsafe_code)]
+// Rows and registers of a tile are numbered; iterators over both hide which is which.
+#![allow(clippy::needless_range_loop)]
 
 use super::{MultiplyRows, MultiplyTransposed};
 use std::arch::aarch64::{float32x4_t, vaddq_f32, vdupq_n_f32, vfmaq_n_f32, vld1q_f32, vst1q_f32};
