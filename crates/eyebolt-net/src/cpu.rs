@@ -59,7 +59,10 @@ impl Executor for Cpu {
         batch: &Batch,
     ) -> Result<Vec<Matrix>, Error> {
         batch.check(graph, parameters)?;
-        infer::infer(self.isa, &mut self.buffers, graph, parameters, batch)
+        self.buffers.set_lean(true);
+        let outputs = infer::infer(self.isa, &mut self.buffers, graph, parameters, batch);
+        self.buffers.trim();
+        outputs
     }
 
     fn forward(
@@ -70,6 +73,7 @@ impl Executor for Cpu {
         seed: u64,
     ) -> Result<Forward, Error> {
         batch.check(graph, parameters)?;
+        self.buffers.set_lean(false);
         if let Some(kept) = self.kept.take() {
             kept.give_back(&mut self.buffers);
         }

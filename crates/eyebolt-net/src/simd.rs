@@ -123,7 +123,7 @@ pub fn multiply_rows(
 /// rows `i` of `c`.
 ///
 /// `b`: one row of `width` for every `p`, `width` as in [`multiply_rows`]. `c`: rows of `width`,
-/// one for each column of `A` from `first` on.
+/// one for each column of `A` from `first` on. `next`: rows of `A` that the next call will want.
 ///
 /// # Panics
 /// If an index lies outside its matrix.
@@ -134,6 +134,7 @@ pub fn multiply_transposed(
     first: usize,
     b: Rows<'_>,
     c: &mut [f32],
+    next: &[u32],
 ) {
     let (stride, width) = (a.width, b.width);
     assert!(width.is_multiple_of(PANEL_STEP) && (PANEL_STEP..=PANEL).contains(&width));
@@ -144,7 +145,7 @@ pub fn multiply_transposed(
     }
     let highest_input = input.iter().copied().max().unwrap_or(0) as usize;
     assert!((highest_input + 1) * stride <= a.values.len(), "input {highest_input} is outside");
-    let task = MultiplyTransposed { a: a.values, stride, first, input, b: b.values, width };
+    let task = MultiplyTransposed { a: a.values, stride, first, input, b: b.values, width, next };
     match isa {
         #[cfg(target_arch = "x86_64")]
         Isa::Avx512 => avx512::multiply_transposed(&task, c),
@@ -174,4 +175,7 @@ struct MultiplyTransposed<'a> {
     input: &'a [u32],
     b: &'a [f32],
     width: usize,
+    /// Only fetched.
+    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+    next: &'a [u32],
 }

@@ -23,6 +23,7 @@ fn read(path: &str, kind: &str) -> Result<(usize, usize, Vec<[u8; 4]>), Failure>
     Ok((rows, columns, values))
 }
 
+#[allow(dead_code, reason = "one of two examples reads coordinates")]
 /// `[item, x, y, z]` of an `N x 3` array.
 pub fn coordinates(path: &str) -> Result<Vec<[i32; 4]>, Failure> {
     let (_, columns, values) = read(path, "<i4")?;

@@ -5,6 +5,7 @@ use crate::graph::{Domain, Graph, MapSpec, Source};
 use crate::row_map::{RowMap, Runs};
 use crate::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
 use crate::{Error, Matrix};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How samples are chosen.
@@ -59,7 +60,13 @@ impl Batch {
         let levels = levels(graph, points, item_sizes, features, sampling)?;
         let rows = graph.domains().iter().map(|&domain| rows(graph, &levels, domain));
         let rows = rows.collect::<Result<_, Error>>()?;
-        let maps = graph.maps().iter().map(|&spec| map(graph, &levels, spec));
+        let mut groups = Groups::new();
+        for &spec in graph.maps() {
+            if let MapSpec::Group { level, scale } = spec {
+                groups.insert((level, scale), group(graph, &levels, level, scale)?);
+            }
+        }
+        let maps = graph.maps().iter().map(|&spec| map(graph, &levels, &groups, spec));
         let maps = maps.collect::<Result<_, Error>>()?;
         let inputs = graph.inputs().map(|(_, node, source)| match source {
             Source::Features if node.channels == features.channels() => Ok(features.clone()),
@@ -67,7 +74,7 @@ impl Batch {
                 "features",
                 format!("{} channels; the network takes {}", features.channels(), node.channels),
             )),
-            Source::Offsets { level, scale } => offsets(graph, &levels, level, scale),
+            Source::Offsets { level, scale } => offsets(graph, &levels, &groups, level, scale),
         });
         let inputs = inputs.collect::<Result<_, Error>>()?;
         Ok(Self { rows, maps, inputs })
@@ -129,8 +136,10 @@ fn rows(graph: &Graph, levels: &[Level], domain: Domain) -> Result<usize, Error>
     })
 }
 
-/// Rows of the level below that are the neighbours of each sample.
-fn groups(graph: &Graph, levels: &[Level], level: u32, scale: u32) -> Result<Vec<u32>, Error> {
+/// Rows of the level below that are the neighbours of each sample, by level and scale.
+type Groups = BTreeMap<(u32, u32), Vec<u32>>;
+
+fn group(graph: &Graph, levels: &[Level], level: u32, scale: u32) -> Result<Vec<u32>, Error> {
     let (radius, count) = neighbours(graph, level, scale)?;
     let (below, here) = (at(levels, level - 1)?, at(levels, level)?);
     let items = below.items().zip(here.items());
@@ -141,8 +150,15 @@ fn groups(graph: &Graph, levels: &[Level], level: u32, scale: u32) -> Result<Vec
     Ok(lists.collect())
 }
 
-fn offsets(graph: &Graph, levels: &[Level], level: u32, scale: u32) -> Result<Matrix, Error> {
-    let rows = groups(graph, levels, level, scale)?;
+fn offsets(
+    graph: &Graph,
+    levels: &[Level],
+    groups: &Groups,
+    level: u32,
+    scale: u32,
+) -> Result<Matrix, Error> {
+    let none = || foreign(&Source::Offsets { level, scale });
+    let rows = groups.get(&(level, scale)).ok_or_else(none)?;
     let count = neighbours(graph, level, scale)?.1;
     let (below, here) = (at(levels, level - 1)?, at(levels, level)?);
     let values = rows.iter().enumerate().flat_map(|(place, &row)| {
@@ -152,7 +168,7 @@ fn offsets(graph: &Graph, levels: &[Level], level: u32, scale: u32) -> Result<Ma
     Matrix::new(rows.len(), 3, values.collect())
 }
 
-fn map(graph: &Graph, levels: &[Level], spec: MapSpec) -> Result<Map, Error> {
+fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Result<Map, Error> {
     let starts = |domain| match domain {
         Domain::Points => Ok(&levels[0].starts),
         Domain::Samples { level } => Ok(&at(levels, level)?.starts),
@@ -167,7 +183,7 @@ fn map(graph: &Graph, levels: &[Level], spec: MapSpec) -> Result<Map, Error> {
         MapSpec::Means(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
         MapSpec::Group { level, scale } => {
             let inputs = at(levels, level - 1)?.points.len();
-            Map::Rows(Arc::new(RowMap::gather(inputs, groups(graph, levels, level, scale)?)))
+            Map::Rows(Arc::new(RowMap::gather(inputs, groups[&(level, scale)].clone())))
         }
         MapSpec::Neighbours { level, scale } => {
             let (count, samples) = (neighbours(graph, level, scale)?.1, at(levels, level)?);

@@ -1,9 +1,15 @@
 //! Memory that is used again: a fresh page costs more than what is written to it.
 
+/// Values that are kept from one run to the next: 256 MiB. For runs that need more, fresh pages
+/// cost little beside the work.
+const KEPT: usize = 1 << 26;
+
 /// Buffers that are free.
 #[derive(Debug, Default)]
 pub struct Buffers {
     free: Vec<Vec<f32>>,
+    /// In inference memory is what counts: what no longer fits goes back to the system.
+    is_lean: bool,
 }
 
 impl Buffers {
@@ -20,7 +26,25 @@ impl Buffers {
                 buffer.truncate(len);
                 buffer
             }
-            None => vec![0.0; len],
+            None => {
+                if self.is_lean {
+                    self.free.retain(|buffer| buffer.len() > len);
+                }
+                vec![0.0; len]
+            }
+        }
+    }
+
+    /// Before a run, of inference or not.
+    pub fn set_lean(&mut self, is_lean: bool) {
+        self.is_lean = is_lean;
+    }
+
+    /// After a run of inference.
+    pub fn trim(&mut self) {
+        self.free.sort_unstable_by_key(Vec::len);
+        while self.free.iter().map(Vec::len).sum::<usize>() > KEPT {
+            self.free.pop();
         }
     }
 

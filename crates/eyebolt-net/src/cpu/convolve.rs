@@ -152,13 +152,14 @@ impl Task<'_> {
             let sums = &sums[..count];
             match (scale, shift) {
                 (Some(scale), Some(shift)) => {
-                    for (c, out) in out.iter_mut().enumerate() {
-                        *out = sums[c] * scale[c] + shift[c];
+                    let factors = scale.iter().zip(shift);
+                    for ((out, sum), (scale, shift)) in out.iter_mut().zip(sums).zip(factors) {
+                        *out = sum * scale + shift;
                     }
                 }
                 (None, Some(shift)) => {
-                    for (c, out) in out.iter_mut().enumerate() {
-                        *out = sums[c] + shift[c];
+                    for ((out, sum), shift) in out.iter_mut().zip(sums).zip(shift) {
+                        *out = sum + shift;
                     }
                 }
                 _ => out.copy_from_slice(sums),

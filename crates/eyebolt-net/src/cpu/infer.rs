@@ -25,7 +25,9 @@ pub fn infer(
     for step in &steps {
         if let Op::Input(_) = graph.nodes()[step.head.0].op {
             let input = inputs.next().expect("the batch was checked");
-            values[step.head.0] = Some(input.values().to_vec());
+            let mut value = buffers.take(input.values().len());
+            value.copy_from_slice(input.values());
+            values[step.head.0] = Some(value);
             continue;
         }
         let value = run(isa, buffers, graph, parameters, batch, step, &values)?;
@@ -37,7 +39,10 @@ pub fn infer(
         }
         values[step.last.0] = Some(value);
     }
-    graph.outputs().iter().map(|output| take_output(graph, batch, output.0, &values)).collect()
+    let outputs = graph.outputs().iter();
+    let outputs = outputs.map(|output| take_output(graph, batch, output.0, &values)).collect();
+    values.into_iter().flatten().for_each(|value| buffers.give(value));
+    outputs
 }
 
 fn take_output(

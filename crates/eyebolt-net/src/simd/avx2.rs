@@ -5,8 +5,8 @@
 
 use super::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{
-    _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_set1_ps,
-    _mm256_setzero_ps, _mm256_storeu_ps,
+    _MM_HINT_T0, _MM_HINT_T1, _mm_prefetch, _mm256_add_ps, _mm256_fmadd_ps, _mm256_loadu_ps,
+    _mm256_set1_ps, _mm256_setzero_ps, _mm256_storeu_ps,
 };
 
 const LANES: usize = 8;
@@ -119,6 +119,9 @@ unsafe fn transposed(task: &MultiplyTransposed<'_>, columns: usize, c: *mut f32)
         // SAFETY: the caller's promise, for a part of its columns.
         unsafe {
             for column in (0..whole).step_by(TILE) {
+                if strip == 0 {
+                    prefetch_columns(task, column);
+                }
                 transposed_tile::<TILE>(task, column, strip, c);
             }
             match columns - whole {
@@ -129,6 +132,21 @@ unsafe fn transposed(task: &MultiplyTransposed<'_>, columns: usize, c: *mut f32)
                 5 => transposed_tile::<5>(task, whole, strip, c),
                 _ => {}
             }
+        }
+    }
+}
+
+/// These columns of the rows that come next, where a tile enters another line of cache.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn prefetch_columns(task: &MultiplyTransposed<'_>, column: usize) {
+    if column % 16 >= TILE {
+        return;
+    }
+    for &input in task.next {
+        let place = input as usize * task.stride + task.first + column;
+        if let Some(value) = task.a.get(place) {
+            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(value).cast());
         }
     }
 }

@@ -5,8 +5,8 @@
 
 use super::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{
-    _MM_HINT_T0, _mm_prefetch, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_set1_ps, _mm512_setzero_ps,
-    _mm512_storeu_ps,
+    _MM_HINT_T0, _MM_HINT_T1, _mm_prefetch, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_set1_ps,
+    _mm512_setzero_ps, _mm512_storeu_ps,
 };
 
 const LANES: usize = 16;
@@ -130,6 +130,7 @@ unsafe fn transposed<const V: usize>(task: &MultiplyTransposed<'_>, columns: usi
     // SAFETY: the caller's promise, for a part of its columns.
     unsafe {
         for column in (0..whole).step_by(TILE) {
+            prefetch_columns(task, column);
             transposed_tile::<TILE, V>(task, column, c);
         }
         match columns - whole {
@@ -139,6 +140,21 @@ unsafe fn transposed<const V: usize>(task: &MultiplyTransposed<'_>, columns: usi
             4 => transposed_tile::<4, V>(task, whole, c),
             5 => transposed_tile::<5, V>(task, whole, c),
             _ => {}
+        }
+    }
+}
+
+/// These columns of the rows that come next, where a tile enters another line of cache.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn prefetch_columns(task: &MultiplyTransposed<'_>, column: usize) {
+    if column % 16 >= TILE {
+        return;
+    }
+    for &input in task.next {
+        let place = input as usize * task.stride + task.first + column;
+        if let Some(value) = task.a.get(place) {
+            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(value).cast());
         }
     }
 }
