@@ -1,5 +1,12 @@
 //! The shape of a convolution.
 
+use crate::Error;
+
+/// The widest kernel: beyond it the weights alone are absurd.
+const MAX_SIZE: u32 = 15;
+/// The largest step between resolutions, and between offsets of a kernel.
+pub(super) const MAX_STEP: u32 = 64;
+
 /// Offsets that a convolution sums over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Kernel {
@@ -49,4 +56,29 @@ pub struct KernelSpec {
     pub from: u32,
     /// Stride of the output.
     pub to: u32,
+}
+
+impl KernelSpec {
+    /// That there can be such a convolution.
+    ///
+    /// # Errors
+    /// If the kernel is empty or too wide, or the coarser stride not a multiple of the finer.
+    pub fn check(self) -> Result<(), Error> {
+        let Kernel { size, dilation } = self.kernel;
+        let bad = |problem: String| {
+            let place = format!("kernel {size}, stride {} to {}", self.from, self.to);
+            Err(Error::network(place, problem))
+        };
+        if !(1..=MAX_SIZE).contains(&size) {
+            return bad(format!("kernels have 1 to {MAX_SIZE} voxels an edge"));
+        }
+        if !(1..=MAX_STEP).contains(&dilation) {
+            return bad(format!("dilation {dilation} is not 1 to {MAX_STEP}"));
+        }
+        let (fine, coarse) = (self.from.min(self.to), self.from.max(self.to));
+        if fine == 0 || !coarse.is_multiple_of(fine) {
+            return bad("the coarser stride must be a multiple of the finer".into());
+        }
+        Ok(())
+    }
 }

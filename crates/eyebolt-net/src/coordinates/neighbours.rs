@@ -1,14 +1,10 @@
 //! All resolutions and maps of one batch, each built when first asked for.
 
-use super::{Kernel, KernelMap, KernelSpec, VoxelSet, generic, strided, window};
+use super::kernel::MAX_STEP;
+use super::{KernelMap, KernelSpec, VoxelSet, generic, strided, window};
 use crate::Error;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// The widest kernel: beyond it the weights alone are absurd.
-const MAX_SIZE: u32 = 15;
-/// The largest step between resolutions, and between offsets of a kernel.
-const MAX_STEP: u32 = 64;
 
 /// The voxels of a batch at every resolution that its network asks for, and the maps between them.
 #[derive(Debug)]
@@ -58,7 +54,7 @@ impl Neighbours {
         if let Some(map) = self.maps.get(&spec) {
             return Ok(map.clone());
         }
-        check(spec)?;
+        spec.check()?;
         let map = Arc::new(if spec.from > spec.to {
             let forward = KernelSpec { from: spec.to, to: spec.from, ..spec };
             self.map(forward)?.transposed()
@@ -97,23 +93,4 @@ impl Neighbours {
         }
         Ok(generic::build(&fine, &coarse, spec.kernel, factor))
     }
-}
-
-fn check(spec: KernelSpec) -> Result<(), Error> {
-    let Kernel { size, dilation } = spec.kernel;
-    let place = || format!("kernel {size}, stride {} to {}", spec.from, spec.to);
-    if !(1..=MAX_SIZE).contains(&size) {
-        return Err(Error::network(
-            place(),
-            format!("kernels have 1 to {MAX_SIZE} voxels an edge"),
-        ));
-    }
-    if !(1..=MAX_STEP).contains(&dilation) {
-        return Err(Error::network(place(), format!("dilation {dilation} is not 1 to {MAX_STEP}")));
-    }
-    let (fine, coarse) = (spec.from.min(spec.to), spec.from.max(spec.to));
-    if fine == 0 || !coarse.is_multiple_of(fine) {
-        return Err(Error::network(place(), "the coarser stride must be a multiple of the finer"));
-    }
-    Ok(())
 }

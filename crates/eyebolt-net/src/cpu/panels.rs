@@ -31,7 +31,8 @@ impl<'a> Panels<'a> {
 
     /// Of `[volume, depth, columns]` weights.
     pub fn pack(buffer: &'a mut [f32], weights: &[f32], depth: usize, columns: usize) -> Self {
-        let (size, packed) = (depth * columns, depth * padded(columns));
+        // One at least, since chunks of nothing are none: of no channels there is nothing to pack.
+        let (size, packed) = ((depth * columns).max(1), (depth * padded(columns)).max(1));
         buffer.par_chunks_exact_mut(packed).zip(weights.par_chunks_exact(size)).for_each(
             |(buffer, matrix)| {
                 for (first, count, width) in panels(columns) {
@@ -56,8 +57,8 @@ impl<'a> Panels<'a> {
         columns: usize,
         mirrored: bool,
     ) -> Self {
-        let (size, packed) = (depth * columns, depth * padded(columns));
-        let volume = weights.len() / size.max(1);
+        let (size, packed) = ((depth * columns).max(1), (depth * padded(columns)).max(1));
+        let volume = weights.len() / size;
         buffer.par_chunks_exact_mut(packed).enumerate().for_each(|(place, buffer)| {
             let offset = if mirrored { volume - 1 - place } else { place };
             let matrix = &weights[offset * size..][..size];

@@ -33,7 +33,8 @@ impl GraphBuilder {
     /// A convolution; `name.kernel` and `name.bias` are its parameters.
     ///
     /// # Errors
-    /// If `input` does not live on the voxels that the convolution comes from.
+    /// If there can be no such convolution, or `input` does not live on the voxels that it comes
+    /// from.
     pub fn convolution(
         &mut self,
         name: &str,
@@ -42,6 +43,7 @@ impl GraphBuilder {
         channels: usize,
         bias: bool,
     ) -> Result<NodeId, Error> {
+        spec.check()?;
         self.expect_domain(name, input, Domain::Voxels { stride: spec.from })?;
         let domain = self.domain(Domain::Voxels { stride: spec.to });
         // A kernel of one voxel pairs each row with itself, whatever the map.

@@ -62,6 +62,7 @@ pub fn multiply_transposed(task: &MultiplyTransposed<'_>, c: &mut [f32]) {
 /// `first + R` pairs and `column + STRIP` columns at least; every input row inside `a`, every
 /// output row inside `c`, `panel` of `depth` rows of `width` values.
 #[inline]
+#[target_feature(enable = "neon")]
 unsafe fn rows_tile<const R: usize>(
     task: &MultiplyRows<'_>,
     first: usize,
@@ -98,6 +99,7 @@ unsafe fn rows_tile<const R: usize>(
 /// `column + R` columns of `A` and `strip + STRIP` of `B` at least; every input row of `stride`
 /// values inside `a`, one row of `width` values in `b` for each, and one in `c` for each column.
 #[inline]
+#[target_feature(enable = "neon")]
 unsafe fn transposed_tile<const R: usize>(
     task: &MultiplyTransposed<'_>,
     column: usize,
@@ -129,6 +131,7 @@ unsafe fn transposed_tile<const R: usize>(
 /// # Safety
 /// [`STRIP`] values at `from`.
 #[inline]
+#[target_feature(enable = "neon")]
 unsafe fn load(from: *const f32) -> [float32x4_t; VECTORS] {
     let mut row = [vdupq_n_f32(0.0); VECTORS];
     for (v, register) in row.iter_mut().enumerate() {
@@ -141,6 +144,7 @@ unsafe fn load(from: *const f32) -> [float32x4_t; VECTORS] {
 /// # Safety
 /// [`STRIP`] values at `to`.
 #[inline]
+#[target_feature(enable = "neon")]
 unsafe fn add_to(to: *mut f32, sums: [float32x4_t; VECTORS]) {
     for (v, sum) in sums.into_iter().enumerate() {
         // SAFETY: the caller's promise.

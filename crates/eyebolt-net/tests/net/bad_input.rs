@@ -91,6 +91,19 @@ fn many_points() {
 }
 
 #[test]
+fn no_channels() {
+    use eyebolt_net::graph::{Domain, GraphBuilder, Source};
+    let mut g = GraphBuilder::new();
+    let input = g.input(Source::Features, Domain::Voxels { stride: 1 }, 0);
+    let some = g.convolution("some", input, crate::scenes::within(3, 1, 1), 2, true).unwrap();
+    let none = g.linear("none", some, 0, true);
+    let none = g.batch_norm("norm", none);
+    let graph = g.finish(&[some, none]);
+    let batch = Batch::from_voxels(&graph, &[[0, 1, 2, 3]; 2], &Matrix::zeros(2, 0)).unwrap();
+    assert_finite(&graph, &Parameters::initial(&graph, 0), &batch);
+}
+
+#[test]
 fn networks_that_are_none() {
     assert!(MinkUNet::named("minkunet99", 3, 3).unwrap_err().to_string().contains("not known"));
     let mut net = MinkUNet::named("MinkUNet34C", 3, 3).unwrap();
