@@ -65,6 +65,15 @@ pub fn gmac(graph: &Graph, neighbours: &mut Neighbours) -> Result<f64, Failure> 
     Ok(total)
 }
 
+/// Processor time of all threads so far, in steps of 10 ms: what a busy machine does not change.
+/// Zero where the system does not tell.
+pub fn cpu_s() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The name before may hold blanks; user and system time are fields 14 and 15.
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
+    0.01 * fields.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>()
+}
+
 /// Memory in use.
 pub fn rss_mib() -> f64 {
     status("VmRSS")
