@@ -11,8 +11,9 @@ use rayon::prelude::*;
 /// Input channels of a task at most: a panel of sums for them takes a part of the second-level
 /// cache.
 const CHANNELS: usize = 256;
-/// Pairs at a time: their gradients stay in the first-level cache while all channels pass.
-const PAIRS: usize = 128;
+/// Pairs at a time: enough to pay for fetching sums, few enough that both their rows stay in the
+/// second-level cache while all channels pass (96 took 4 % longer).
+const PAIRS: usize = 256;
 
 /// `dW[o] = sum over pairs (o, i, u) of in(i)^T g(u)`; `out` is overwritten.
 pub fn weight_gradient(
