@@ -1,0 +1,85 @@
+//! Batches of voxels.
+
+use super::{Batch, Map};
+use crate::coordinates::{Neighbours, VoxelSet, average_features};
+use crate::graph::{Domain, Graph, MapSpec, Source};
+use crate::row_map::{RowMap, Runs};
+use crate::{Error, Matrix};
+use std::sync::Arc;
+
+impl Batch {
+    /// For a graph on voxels: coordinates `[item, x, y, z]` of points and their features, one row
+    /// each. Points of the same voxel share it, with the mean of their features.
+    ///
+    /// # Errors
+    /// If there are no points, coordinates are out of bounds, a feature is not finite, there are
+    /// not as many features as the graph takes, an item has no point, or the graph needs samples.
+    pub fn from_voxels(
+        graph: &Graph,
+        coordinates: &[[i32; 4]],
+        features: &Matrix,
+    ) -> Result<Self, Error> {
+        features.check_finite("features")?;
+        let (finest, voxel_of_point) = VoxelSet::new(coordinates)?;
+        let means = average_features(features, &voxel_of_point, finest.len())?;
+        Self::from_neighbours(graph, &mut Neighbours::new(finest), means, voxel_of_point)
+    }
+
+    /// The same from voxels and maps that are there already, `features` of the finest voxels.
+    ///
+    /// # Errors
+    /// As [`Batch::from_voxels`].
+    pub fn from_neighbours(
+        graph: &Graph,
+        neighbours: &mut Neighbours,
+        features: Matrix,
+        voxel_of_point: Vec<u32>,
+    ) -> Result<Self, Error> {
+        let finest = neighbours.voxels(1)?;
+        let points = voxel_of_point.len();
+        let slice = Arc::new(RowMap::gather(finest.len(), voxel_of_point));
+        let items = finest.item_starts().len() - 1;
+        let rows = graph.domains().iter().map(|&domain| match domain {
+            Domain::Voxels { stride } => Ok(neighbours.voxels(stride)?.len()),
+            Domain::Points => Ok(points),
+            Domain::Items => Ok(items),
+            _ => Err(Error::network("graph", "samples points; use Batch::from_points")),
+        });
+        let rows: Vec<usize> = rows.collect::<Result<_, Error>>()?;
+        let mut maps = Vec::new();
+        for &spec in graph.maps() {
+            maps.push(match spec {
+                MapSpec::Kernel(spec) => Map::Kernel(neighbours.map(spec)?),
+                MapSpec::Slice => Map::Rows(slice.clone()),
+                MapSpec::Items(Domain::Voxels { stride }) => {
+                    let voxels = neighbours.voxels(stride)?;
+                    Map::Runs(Arc::new(runs(&voxels)?))
+                }
+                MapSpec::Means(Domain::Voxels { stride }) => {
+                    let voxels = neighbours.voxels(stride)?;
+                    Map::Rows(Arc::new(RowMap::means(&runs(&voxels)?)))
+                }
+                _ => return Err(Error::network("graph", format!("{spec:?} is not of voxels"))),
+            });
+        }
+        let sources = graph.inputs().map(|(_, node, source)| match source {
+            Source::Features if node.channels == features.channels() => Ok(features.clone()),
+            Source::Features => Err(Error::input(
+                "features",
+                format!("{} channels; the network takes {}", features.channels(), node.channels),
+            )),
+            Source::Offsets { .. } => Err(Error::network("graph", "samples points")),
+        });
+        let inputs = sources.collect::<Result<_, Error>>()?;
+        Ok(Self { rows, maps, inputs })
+    }
+}
+
+/// Runs of items, none of which may be empty.
+fn runs(voxels: &VoxelSet) -> Result<Runs, Error> {
+    let starts = voxels.item_starts();
+    if let Some(item) = starts.windows(2).position(|pair| pair[0] == pair[1]) {
+        return Err(Error::input("coordinates", format!("item {item} of the batch has no point")));
+    }
+    Ok(Runs::new(starts.to_vec()))
+}

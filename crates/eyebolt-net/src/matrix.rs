@@ -1,0 +1,88 @@
+//! Rows of channels.
+
+use crate::Error;
+
+/// One row of channels for every point, row after row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Matrix<T = f32> {
+    rows: usize,
+    channels: usize,
+    values: Vec<T>,
+}
+
+impl<T: Copy + Default> Matrix<T> {
+    /// A matrix of these values.
+    ///
+    /// # Errors
+    /// If there are not `rows * channels` of them.
+    pub fn new(rows: usize, channels: usize, values: Vec<T>) -> Result<Self, Error> {
+        if rows.checked_mul(channels) != Some(values.len()) {
+            return Err(Error::input(
+                "matrix",
+                format!("{} values are not {rows} rows of {channels}", values.len()),
+            ));
+        }
+        Ok(Self { rows, channels, values })
+    }
+
+    /// All zero.
+    pub fn zeros(rows: usize, channels: usize) -> Self {
+        Self { rows, channels, values: vec![T::default(); rows * channels] }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Values in a row.
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// Row after row.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// Row after row, to be changed.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// Row after row, owned.
+    pub fn into_values(self) -> Vec<T> {
+        self.values
+    }
+
+    /// One row.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn row(&self, row: usize) -> &[T] {
+        &self.values[row * self.channels..][..self.channels]
+    }
+
+    /// The values through a function.
+    pub fn map<U: Copy + Default>(&self, function: impl Fn(T) -> U) -> Matrix<U> {
+        let values = self.values.iter().map(|&value| function(value)).collect();
+        Matrix { rows: self.rows, channels: self.channels, values }
+    }
+}
+
+impl Matrix<f32> {
+    /// That no value is NaN or infinite.
+    ///
+    /// # Errors
+    /// The first that is, by row and channel.
+    pub fn check_finite(&self, field: &str) -> Result<(), Error> {
+        let Some(at) = self.values.iter().position(|value| !value.is_finite()) else {
+            return Ok(());
+        };
+        let (row, channel) = (at / self.channels.max(1), at % self.channels.max(1));
+        Err(Error::input(
+            field,
+            format!("row {row}, channel {channel} is {}; drop such points", self.values[at]),
+        ))
+    }
+}

@@ -1,0 +1,58 @@
+//! Residual blocks (He et al., *Deep residual learning for image recognition*, CVPR 2016).
+
+use super::Block;
+use crate::Error;
+use crate::coordinates::{Kernel, KernelSpec};
+use crate::graph::{GraphBuilder, NodeId};
+
+/// A convolution, a batch norm, ReLU.
+pub fn convolution_norm_relu(
+    g: &mut GraphBuilder,
+    name: &str,
+    norm: &str,
+    x: NodeId,
+    spec: KernelSpec,
+    channels: usize,
+) -> Result<NodeId, Error> {
+    let x = g.convolution(name, x, spec, channels, false)?;
+    let x = g.batch_norm(norm, x);
+    Ok(g.relu(x))
+}
+
+/// One block of a stage. The shortcut is a convolution of one voxel where channels change.
+pub fn stage(
+    g: &mut GraphBuilder,
+    name: &str,
+    block: Block,
+    x: NodeId,
+    channels: usize,
+    stride: u32,
+) -> Result<NodeId, Error> {
+    let spec = |size| KernelSpec { kernel: Kernel::new(size), from: stride, to: stride };
+    let out = channels * block.expansion();
+    let sizes: &[u32] = match block {
+        Block::Basic => &[3, 3],
+        Block::Bottleneck => &[1, 3, 1],
+    };
+    // First, so that the last convolution can take the addition along.
+    let shortcut = if g.channels(x) == out {
+        x
+    } else {
+        let y = g.convolution(&format!("{name}.downsample.0"), x, spec(1), out, false)?;
+        g.batch_norm(&format!("{name}.downsample.1"), y)
+    };
+    let mut y = x;
+    for (index, &size) in sizes.iter().enumerate() {
+        let is_last = index + 1 == sizes.len();
+        let width = if is_last { out } else { channels };
+        let (convolution, norm) =
+            (format!("{name}.conv{}", index + 1), format!("{name}.norm{}", index + 1));
+        y = g.convolution(&convolution, y, spec(size), width, false)?;
+        y = g.batch_norm(&norm, y);
+        if !is_last {
+            y = g.relu(y);
+        }
+    }
+    let sum = g.add(name, y, shortcut)?;
+    Ok(g.relu(sum))
+}

@@ -1,0 +1,80 @@
+//! Numbers that are learned.
+
+use crate::Error;
+use crate::graph::{Graph, ParameterId, Role};
+use crate::random::Random;
+
+/// The values of a graph's parameters, in its order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    values: Vec<Vec<f32>>,
+}
+
+impl Parameters {
+    /// Where training starts: weights normally distributed with variance `2 / fan_in` (He et al.,
+    /// *Delving deep into rectifiers*, ICCV 2015), batch norms as identities.
+    pub fn initial(graph: &Graph, seed: u64) -> Self {
+        let streams = Random::new(seed);
+        let values = graph.parameters().iter().enumerate().map(|(place, spec)| match spec.role {
+            Role::Weight { fan_in } => {
+                let mut random = streams.at(place as u64);
+                let deviation = (2.0 / fan_in.max(1) as f64).sqrt();
+                (0..spec.len()).map(|_| (deviation * random.normal()) as f32).collect()
+            }
+            Role::Scale | Role::Variance => vec![1.0; spec.len()],
+            Role::Bias | Role::Shift | Role::Mean => vec![0.0; spec.len()],
+        });
+        Self { values: values.collect() }
+    }
+
+    /// Of values in the graph's order.
+    ///
+    /// # Errors
+    /// If one is missing, too many, of another length, or not finite; or a variance is negative.
+    pub fn new(graph: &Graph, values: Vec<Vec<f32>>) -> Result<Self, Error> {
+        let specs = graph.parameters();
+        if specs.len() != values.len() {
+            let problem = format!("{} of {}", values.len(), specs.len());
+            return Err(Error::input("parameters", problem));
+        }
+        for (spec, values) in specs.iter().zip(&values) {
+            if spec.len() != values.len() {
+                let problem = format!("{} values, not {:?}", values.len(), spec.shape);
+                return Err(Error::input(&spec.name, problem));
+            }
+            if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+                return Err(Error::input(&spec.name, format!("value {at} is {}", values[at])));
+            }
+            if spec.role == Role::Variance && values.iter().any(|&value| value < 0.0) {
+                return Err(Error::input(&spec.name, "a negative variance"));
+            }
+        }
+        Ok(Self { values })
+    }
+
+    /// One parameter.
+    pub fn get(&self, id: ParameterId) -> &[f32] {
+        &self.values[id.0]
+    }
+
+    /// One parameter, to be changed.
+    pub fn get_mut(&mut self, id: ParameterId) -> &mut [f32] {
+        &mut self.values[id.0]
+    }
+
+    /// All, in the graph's order.
+    pub fn values(&self) -> &[Vec<f32>] {
+        &self.values
+    }
+
+    /// All, to be changed.
+    pub(crate) fn values_mut(&mut self) -> &mut [Vec<f32>] {
+        &mut self.values
+    }
+
+    /// Number of values that are trained.
+    pub fn trained(&self, graph: &Graph) -> usize {
+        let specs = graph.parameters().iter().filter(|spec| spec.role.is_trained());
+        specs.map(|spec| spec.len()).sum()
+    }
+}

@@ -1,0 +1,121 @@
+//! A small MinkUNet learns to tell three shapes from each other and from noise.
+
+use crate::fixtures::hashed;
+use eyebolt_net::losses::cross_entropy;
+use eyebolt_net::models::MinkUNet;
+use eyebolt_net::training::{Rule, Schedule, Trainer};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix};
+use std::collections::BTreeMap;
+
+const STEPS: u64 = 300;
+
+fn network() -> Graph {
+    let mut net = MinkUNet::named("minkunet14a", 1, 4).unwrap();
+    net.stem_channels = 16;
+    net.channels = [16, 16, 24, 32, 32, 24, 16, 16];
+    net.stem_kernel = 3;
+    net.graph().unwrap()
+}
+
+/// Voxels of a sphere, a box and a disc at places of their own, and noise: classes 0 to 3.
+fn scene(seed: u64) -> (Vec<[i32; 4]>, Vec<u32>) {
+    let random = hashed(&format!("scene {seed}"), 12_000);
+    let mut random = random.into_iter().cycle();
+    let mut next = move || random.next().unwrap();
+    let mut voxels = BTreeMap::new();
+    for _ in 0..120 {
+        voxels.insert([0; 3].map(|_: i32| (40.0 * next()) as i32), 3);
+    }
+    for (class, x) in [(0, -22.0), (1, 0.0), (2, 22.0)] {
+        let (size, centre) = (6.0 + 2.0 * next(), [x, 20.0 * next(), 20.0 * next()]);
+        for _ in 0..900 {
+            let [mut a, mut b, mut c] = [next(), next(), next()];
+            match class {
+                0 => {
+                    let length = (a * a + b * b + c * c).sqrt().max(1e-3);
+                    [a, b, c] = [a, b, c].map(|value| value / length);
+                }
+                1 => {
+                    let side = next();
+                    let face = if side > 0.0 { 1.0 } else { -1.0 };
+                    match (side.abs() * 3.0) as u32 {
+                        0 => a = face,
+                        1 => b = face,
+                        _ => c = face,
+                    }
+                }
+                _ if a * a + b * b > 1.0 => continue,
+                _ => c = 0.0,
+            }
+            let cell = [0, 1, 2].map(|axis| (centre[axis] + size * [a, b, c][axis]).floor() as i32);
+            voxels.insert(cell, class);
+        }
+    }
+    voxels.into_iter().map(|([x, y, z], class)| ([0, x, y, z], class)).unzip()
+}
+
+fn batch(graph: &Graph, seed: u64) -> (Batch, Vec<u32>) {
+    let (voxels, labels) = scene(seed);
+    let ones = Matrix::new(voxels.len(), 1, vec![1.0; voxels.len()]).unwrap();
+    (Batch::from_voxels(graph, &voxels, &ones).unwrap(), labels)
+}
+
+fn train(graph: &Graph, trainer: &mut Trainer, until: u64) {
+    let mut cpu = Cpu::new();
+    while trainer.step_count() < until {
+        let (batch, labels) = batch(graph, trainer.step_count());
+        let loss = |outputs: &[Matrix]| Ok(vec![cross_entropy(&outputs[0], &labels, 255, None)?]);
+        trainer.step(&mut cpu, graph, &batch, loss).unwrap();
+    }
+}
+
+fn trainer(graph: &Graph) -> Trainer {
+    let schedule = Schedule::Cosine { rate: 5e-3, warm_up: 10, total: STEPS };
+    Trainer::new(graph, Rule::adamw(1e-4), schedule, 1)
+}
+
+#[test]
+fn three_shapes_in_noise() {
+    let graph = network();
+    let mut trainer = trainer(&graph);
+    train(&graph, &mut trainer, STEPS);
+    let (mut right, mut total) = (0, 0);
+    for seed in 1000..1010 {
+        let (batch, labels) = batch(&graph, seed);
+        let logits = Cpu::new().infer(&graph, trainer.parameters(), &batch).unwrap();
+        for (row, &label) in labels.iter().enumerate() {
+            let row = logits[0].row(row);
+            let best = (0..4).max_by(|&a, &b| row[a].total_cmp(&row[b])).unwrap();
+            right += usize::from(best == label as usize);
+            total += 1;
+        }
+    }
+    let share = right as f64 / total as f64;
+    assert!(share >= 0.98, "{share} of {total} points");
+}
+
+#[test]
+fn killed_and_resumed_it_ends_in_the_same_bytes() {
+    let graph = network();
+    let mut whole = trainer(&graph);
+    train(&graph, &mut whole, 6);
+    let mut killed = trainer(&graph);
+    train(&graph, &mut killed, 3);
+    let bytes = killed.checkpoint(&graph).unwrap();
+    let mut resumed = Trainer::resume(&graph, &bytes).unwrap();
+    assert_eq!(resumed, killed);
+    train(&graph, &mut resumed, 6);
+    assert!(resumed.checkpoint(&graph).unwrap() == whole.checkpoint(&graph).unwrap());
+}
+
+#[test]
+fn broken_checkpoints_are_refused() {
+    let graph = network();
+    let bytes = trainer(&graph).checkpoint(&graph).unwrap();
+    for end in (0..bytes.len()).step_by(bytes.len() / 50) {
+        assert!(Trainer::resume(&graph, &bytes[..end]).is_err(), "cut at {end}");
+    }
+    let other = MinkUNet::named("minkunet14a", 2, 4).unwrap().graph().unwrap();
+    let error = Trainer::resume(&other, &bytes).unwrap_err().to_string();
+    assert!(error.contains("checkpoint: conv0p1s1.kernel: shape"), "{error}");
+}

@@ -1,0 +1,14 @@
+//! Laws and oracles of sparse networks.
+
+mod bad_input;
+mod coordinates;
+mod executors;
+mod fixtures;
+mod gradients;
+mod learning;
+mod pytorch_minkunet;
+mod pytorch_operations;
+mod pytorch_points;
+mod pytorch_training;
+mod scenes;
+mod weights;

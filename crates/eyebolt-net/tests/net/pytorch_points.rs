@@ -1,0 +1,130 @@
+//! Sampling, neighbours, interpolation and small PointNet++ networks against plain PyTorch.
+
+use crate::fixtures::{Fixture, assert_close, hashed, hashed_matrix};
+use eyebolt_net::models::{Abstraction, PointNet2, Scale, Task};
+use eyebolt_net::reference::Reference;
+use eyebolt_net::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Parameters, Sampling};
+
+fn points() -> Vec<[f32; 3]> {
+    hashed("points", 600).as_chunks::<3>().0.to_vec()
+}
+
+fn centres() -> Vec<[f32; 3]> {
+    let points = points();
+    farthest_points(&points, 40).into_iter().map(|at| points[at as usize]).collect()
+}
+
+fn integers(values: impl IntoIterator<Item = u32>) -> Vec<i32> {
+    values.into_iter().map(|value| value as i32).collect()
+}
+
+#[test]
+fn sampling_and_grouping() {
+    let fixture = Fixture::read("points");
+    let points = points();
+    assert_eq!(integers(farthest_points(&points, 40)), fixture.integers("farthest"));
+    assert_eq!(integers(ball_query(&points, &centres(), 0.4, 9)), fixture.integers("ball"));
+    let nearest = three_nearest(&centres(), &points);
+    assert_eq!(integers(nearest.iter().flat_map(|(at, _)| *at)), fixture.integers("nearest"));
+    let weights: Vec<f32> = nearest.iter().flat_map(|(_, weights)| *weights).collect();
+    assert_close("weights", &weights, fixture.floats("weights"), 1e-5);
+}
+
+#[test]
+fn uniform_samples_are_different_points() {
+    let mut chosen = uniform_points(50, 20, 4);
+    assert_ne!(chosen, uniform_points(50, 20, 5));
+    chosen.dedup();
+    assert!(chosen.len() == 20 && chosen.is_sorted() && chosen.iter().all(|&at| at < 50));
+    assert_eq!(uniform_points(3, 7, 0), [0, 1, 2, 0, 1, 2, 0]);
+}
+
+fn network(several: bool) -> PointNet2 {
+    let scale = |radius, neighbours, channels: [usize; 2]| Scale {
+        radius,
+        neighbours,
+        channels: channels.to_vec(),
+    };
+    let level = |samples, near, far| Abstraction {
+        samples,
+        scales: if several { vec![near, far] } else { vec![far] },
+    };
+    PointNet2 {
+        inputs: 3,
+        outputs: 3,
+        abstractions: vec![
+            level(40, scale(0.2, 4, [6, 7]), scale(0.4, 8, [6, 8])),
+            level(10, scale(0.4, 4, [10, 12]), scale(0.8, 8, [10, 12])),
+        ],
+        task: Task::Segmentation(vec![vec![11], vec![12, 13]]),
+        head: 9,
+    }
+}
+
+fn parameters(graph: &Graph, prefix: &str) -> Parameters {
+    let values = graph.parameters().iter().map(|spec| {
+        let change = |value: f32| match (spec.name.rsplit_once('.').unwrap().1, &spec.shape[..]) {
+            ("weight", &[inputs, _]) => value * (6.0 / inputs as f32).sqrt(),
+            ("weight", _) => 1.0 + 0.2 * value,
+            ("running_var", _) => 1.0 + 0.3 * value,
+            _ => 0.1 * value,
+        };
+        hashed(&format!("{prefix}{}", spec.name), spec.len()).into_iter().map(change).collect()
+    });
+    Parameters::new(graph, values.collect()).unwrap()
+}
+
+#[test]
+fn segmentation_networks() {
+    let fixture = Fixture::read("points");
+    let points = points();
+    for (name, several) in [("one", false), ("two", true)] {
+        let graph = network(several).graph().unwrap();
+        let features = hashed_matrix("points", 200, 3);
+        let batch = Batch::from_points(&graph, &points, &[200], &features, Sampling::Farthest);
+        let parameters = parameters(&graph, &format!("{name}."));
+        let logits = Cpu::new().infer(&graph, &parameters, &batch.unwrap()).unwrap();
+        assert_close(name, logits[0].values(), fixture.floats(name), 1e-5);
+    }
+}
+
+#[test]
+fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
+    let classification = PointNet2 { task: Task::Classification(vec![14, 15]), ..network(true) };
+    for net in [network(false), classification] {
+        let graph = net.graph().unwrap();
+        let parameters = parameters(&graph, "");
+        let points = points();
+        let batch = |range: std::ops::Range<usize>, sizes: &[usize]| {
+            let all = hashed("points", 600);
+            let features = all[3 * range.start..3 * range.end].to_vec();
+            let features = eyebolt_net::Matrix::new(range.len(), 3, features).unwrap();
+            let points = &points[range];
+            Batch::from_points(&graph, points, sizes, &features, Sampling::Uniform(3)).unwrap()
+        };
+        let mut cpu = Cpu::new();
+        let mut infer = |batch: &Batch| cpu.infer(&graph, &parameters, batch).unwrap()[0].clone();
+        let both = infer(&batch(0..200, &[120, 80]));
+        let parts = [infer(&batch(0..120, &[120])), infer(&batch(120..200, &[80]))];
+        assert_eq!(both.values(), [parts[0].values(), parts[1].values()].concat());
+
+        // Of two rows a batch norm leaves only signs, and gradients are what rounding leaves.
+        let batch = batch(0..200, &[25; 8]);
+        let gradients = |executor: &mut dyn Executor| {
+            let forward = executor.forward(&graph, &parameters, &batch, 9).unwrap();
+            executor.backward(&graph, &parameters, &batch, &forward.outputs, true).unwrap()
+        };
+        let expected = gradients(&mut Reference::<f64>::new());
+        let found = gradients(&mut Cpu::new());
+        for ((found, expected), spec) in
+            found.parameters.iter().zip(&expected.parameters).zip(graph.parameters())
+        {
+            // What a batch norm takes out again, as a bias before it, has no gradient.
+            if expected.iter().any(|value| value.abs() > 1e-6) {
+                assert_close(&spec.name, found, expected, 1e-4);
+            }
+        }
+        assert_close("input", found.inputs[0].values(), expected.inputs[0].values(), 1e-4);
+    }
+}
