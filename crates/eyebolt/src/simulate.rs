@@ -16,6 +16,7 @@ mod viewpoint;
 
 pub use configurations::Rejected;
 pub use faults::Faults;
+pub use solids::Solid;
 pub use viewpoint::{PRESETS, Preset, Ranges, Viewpoint};
 
 use crate::record::RecordError;
@@ -27,7 +28,6 @@ use eyebolt_registration::LinkCache;
 use eyebolt_render::{Random, RayScene, Sensor};
 use eyebolt_robot::Arm;
 use nalgebra::Point3;
-use solids::Solid;
 use surroundings::in_place;
 
 /// What to simulate.
@@ -153,5 +153,10 @@ impl Plan<'_> {
     /// The true pose of the base in the camera's optical frame, when the recording begins.
     pub fn camera_from_base(&self) -> Transform<Camera, Base> {
         self.base_from_camera.inverse()
+    }
+
+    /// What stands around.
+    pub fn solids(&self) -> &[Solid] {
+        &self.solids
     }
 }

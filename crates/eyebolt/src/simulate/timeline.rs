@@ -131,6 +131,15 @@ mod tests {
             .prop_map(|places| places.into_iter().map(joints).collect())
     }
 
+    /// All that happens, with the configuration that it leads to.
+    fn all(timeline: &Timeline, places: &[JointPositions]) -> (Vec<Moment>, Vec<usize>) {
+        let each = places.iter().enumerate().flat_map(|(index, joints)| {
+            let before = index.checked_sub(1).map(|before| &places[before]);
+            timeline.moments(index, before, joints).into_iter().map(move |moment| (moment, index))
+        });
+        each.unzip()
+    }
+
     fn is_frame(moment: &Moment) -> bool {
         matches!(moment.event, Event::Frame { .. })
     }
@@ -140,7 +149,8 @@ mod tests {
         fn stamps_rise_and_every_frame_is_between_two_joint_states(
             places in places(), frames in 1..20_usize, moving in 0..40_usize, backgrounds in 0..5_usize,
         ) {
-            let moments = moments(&places, frames, moving, backgrounds);
+            let timeline = Timeline { frames, moving_frames: moving, backgrounds };
+            let (moments, _) = all(&timeline, &places);
             prop_assert!(moments[0].stamp_ns > background_stamp_ns(backgrounds));
             prop_assert!(moments.is_sorted_by_key(|moment| moment.stamp_ns));
             for of_kind in [true, false] {
@@ -161,10 +171,10 @@ mod tests {
         /// Nothing moves from well before a frame at rest until well after it.
         #[test]
         fn frames_at_rest_see_an_arm_at_rest(places in places(), moving in 0..9_usize) {
-            let moments = moments(&places, 3, moving, 0);
-            for moment in &moments {
-                let Event::Frame { at_rest: Some(index) } = moment.event else { continue };
-                prop_assert_eq!(index, moment.configuration);
+            let timeline = Timeline { frames: 3, moving_frames: moving, backgrounds: 0 };
+            let (moments, configurations) = all(&timeline, &places);
+            let resting = |(moment, _): &(&Moment, usize)| moment.event == Event::Frame { at_rest: true };
+            for (moment, index) in moments.iter().zip(configurations).filter(resting) {
                 let near = moments.iter().filter(|other| {
                     (other.stamp_ns - moment.stamp_ns).abs() < SETTLE_NS
                 });
@@ -192,7 +202,8 @@ mod tests {
                 prop_assert!(off(&early, &late) < 1e-12);
             }
             // Nobody who looks every 20 ms sees a jump.
-            let moments = moments(&[from, to], 1, 0, 0);
+            let timeline = Timeline { frames: 1, moving_frames: 0, backgrounds: 0 };
+            let (moments, _) = all(&timeline, &[from, to]);
             for pair in moments.windows(2) {
                 prop_assert!(off(&pair[0].joints, &pair[1].joints) <= 0.02 * way + 1e-12);
             }

@@ -184,7 +184,7 @@ fn a_camera_that_looks_elsewhere_is_an_error_with_a_remedy() {
     let scenario =
         Scenario { viewpoint: Viewpoint::Within(ranges), sensor: Sensor::KINECT_V1, ..small() };
     let error = plan(scenario, &CACHE).err().unwrap();
-    assert!(matches!(error, SimulateError::OutOfView { found: 0, wanted: 2 }), "{error}");
+    assert!(matches!(error, SimulateError::Unfit { found: 0, wanted: 2, .. }), "{error}");
     assert!(error.to_string().contains("--distance-m"), "{error}");
 }
 

@@ -72,6 +72,7 @@ proptest! {
         });
         let truth = Truth {
             robot: "shackle".to_owned(),
+            base: "link0".to_owned(),
             sensor: "ideal".to_owned(),
             preset: None,
             seed: 1,
