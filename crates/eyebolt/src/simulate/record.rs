@@ -39,7 +39,7 @@ impl Plan<'_> {
         };
         let mut writer = RecordingWriter::new(output, &info)?;
         let timeline = self.timeline();
-        let ways = self.poses.len() - 1;
+        let ways = self.poses.len().saturating_sub(1);
         let total = scenario.backgrounds
             + self.poses.len() * scenario.frames
             + ways * scenario.moving_frames;

@@ -73,6 +73,7 @@ proptest! {
         let truth = Truth {
             base: "link0".to_owned(),
             robot: "shackle".to_owned(),
+            base: "link0".to_owned(),
             sensor: "ideal".to_owned(),
             preset: None,
             seed: 1,

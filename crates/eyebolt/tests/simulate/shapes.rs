@@ -50,10 +50,13 @@ pub fn arm(joints: &JointPositions) -> Vec<Placed> {
     shapes.collect()
 }
 
+/// Solids of the room, which come before the clutter: table, floor, four legs, four walls.
+pub const ROOM: usize = 10;
+
 /// The solids of a plan without clutter, all of which are upright boxes.
 pub fn room(plan: &Plan<'_>) -> Vec<Placed> {
+    assert_eq!(plan.solids().len(), ROOM);
     let boxes = plan.solids().iter().map(|solid| {
-        assert!(["table", "floor", "leg", "wall"].contains(&solid.name), "{}", solid.name);
         let (low, high) = solid.bounds();
         let (low, high) = (low.cast::<f64>(), high.cast::<f64>());
         let middle = nalgebra::center(&low, &high);
