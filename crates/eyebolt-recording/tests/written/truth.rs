@@ -20,11 +20,12 @@ fn poses() -> impl Strategy<Value = Transform<Camera, Base>> {
 
 fn truths() -> impl Strategy<Value = Truth> {
     let moved = proptest::collection::btree_map(any::<i64>(), poses(), 0..3);
-    let texts = ("\\PC{0,8}", "[a-z]{1,8}", proptest::option::of("\\PC{0,8}"));
+    let texts = ("\\PC{0,8}", "\\PC{0,8}", "[a-z]{1,8}", proptest::option::of("\\PC{0,8}"));
     let faults = proptest::collection::btree_map("\\PC{0,8}", any::<i32>(), 0..3);
     (texts, any::<u64>(), poses(), moved, faults).prop_map(
-        |((robot, sensor, preset), seed, camera_from_base, moved, faults)| Truth {
+        |((robot, base, sensor, preset), seed, camera_from_base, moved, faults)| Truth {
             robot,
+            base,
             sensor,
             preset,
             seed,

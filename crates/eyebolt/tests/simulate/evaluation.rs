@@ -73,7 +73,6 @@ proptest! {
         let truth = Truth {
             base: "link0".to_owned(),
             robot: "shackle".to_owned(),
-            base: "link0".to_owned(),
             sensor: "ideal".to_owned(),
             preset: None,
             seed: 1,
