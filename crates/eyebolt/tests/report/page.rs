@@ -112,6 +112,20 @@ fn without_a_pose_there_still_is_a_page() {
 }
 
 #[test]
+fn it_tells_what_became_of_the_frames_without_the_arm() {
+    let told = |background| {
+        let mut answer = GOOD.answer.clone();
+        answer.background = background;
+        html(&answer, &GOOD.outcome, &Context::default())
+    };
+    let (none, used, other) = (told(None), told(Some("used")), told(Some("of_another_scene")));
+    assert!(none.contains("by what moves between") != GOOD.answer.masks);
+    assert!(used.contains("before the frames without it") != GOOD.answer.masks);
+    let note = "show another scene";
+    assert!(other.contains(note) && !used.contains(note) && !none.contains(note));
+}
+
+#[test]
 fn names_from_outside_are_text() {
     const EVIL: &str = "</script><img src=x onerror=alert(1)>\"'&<!--";
     let (mut answer, mut outcome) = (GOOD.answer.clone(), GOOD.outcome.clone());
