@@ -9,10 +9,11 @@ use std::io::Write;
 fn it_takes_the_next_free_name_and_says_what_it_made() {
     let desk = Desk::new();
     fs::create_dir(desk.file("eyebolt-demo")).unwrap();
+    fs::write(desk.file("eyebolt-demo/mine.txt"), "").unwrap();
     let ended = eyebolt_in(desk.path(), &["demo", "--cache", text(&CACHE)]);
     assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
     assert_eq!(desk.names(), ["eyebolt-demo", "eyebolt-demo-2"]);
-    assert_eq!(fs::read_dir(desk.file("eyebolt-demo")).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(desk.file("eyebolt-demo")).unwrap().count(), 1);
     let made = desk.file("eyebolt-demo-2");
     let mut names: Vec<_> = fs::read_dir(&made)
         .unwrap()

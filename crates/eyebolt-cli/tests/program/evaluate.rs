@@ -51,7 +51,17 @@ fn without_a_pose_there_is_nothing_to_compare() {
     let desk = Desk::new();
     assert_eq!(desk.calibrate_stranger(&[]).code, Some(3));
     let rejected = desk.file("calibration.rejected.json");
-    evaluate(&SIMULATED, &rejected, &[]).assert_error(1, &["calibration.rejected.json", "pose"]);
+    // Of another robot, whose base is another link.
+    let words = ["calibration.rejected.json: frames.base", "\"link0\"", "--base link0"];
+    evaluate(&SIMULATED, &rejected, &[]).assert_error(1, &words);
+    let mut answer: Value = serde_json::from_slice(&fs::read(&rejected).unwrap()).unwrap();
+    answer["frames"]["base"] = "link0".into();
+    fs::write(&rejected, answer.to_string()).unwrap();
+    let ended = evaluate(&SIMULATED, &rejected, &[]);
+    assert!(ended.code == Some(0) && ended.out.starts_with("REFUSED: no pose"), "{}", ended.out);
+    let line: Value =
+        serde_json::from_str(&evaluate(&SIMULATED, &rejected, &["--json"]).out).unwrap();
+    assert_eq!((&line["translation_mm"], &line["trusted"]), (&Value::Null, &false.into()));
 }
 
 #[test]

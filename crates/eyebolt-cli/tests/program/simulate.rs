@@ -14,7 +14,7 @@ pub static SIMULATED: LazyLock<PathBuf> = LazyLock::new(|| {
     let quick = ["--configurations", "5", "--frames", "3", "--backgrounds", "3", "--clutter", "3"];
     let ended = simulate(&path, &[&quick[..], &["--preset", "paper-test-p1"]].concat());
     assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
-    for line in ["5 configurations of 3 frames", "kinect-v1", "eyebolt evaluate", text(&path)] {
+    for line in ["5 x 3 frames", "kinect-v1", "eyebolt evaluate", text(&path)] {
         assert!(ended.out.contains(line), "no {line:?} in: {}", ended.out);
     }
     path

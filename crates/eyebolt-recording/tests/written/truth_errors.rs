@@ -91,7 +91,7 @@ fn text_is_json() {
     // As Python writes it.
     said_of(
         &right.replacen("\"seed\": ", "\"seed\": NaN, \"s\": ", 1),
-        &["line 6, column", "no NaN"],
+        &["line 7, column", "no NaN"],
     );
     said_of(&right.replacen("[", "[1e999, ", 1), &["line ", "out of range"]);
     said_of(&right[..right.len() / 2], &["EOF while parsing"]);

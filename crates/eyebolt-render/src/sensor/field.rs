@@ -105,8 +105,9 @@ impl Layers {
     /// The value at pixel `(u, v)` and `depth`, one of those the layers were made for; beyond the
     /// last layer, that of the last.
     pub fn at(&self, u: usize, v: usize, depth: f32) -> f32 {
-        let (first, weights) = weights(depth * self.per_unit);
-        let layers = self.fields[(first - self.first).min(self.fields.len() - 3)..].iter();
+        let last = (self.first + self.fields.len() - 3) as f32;
+        let (first, weights) = weights((depth * self.per_unit).min(last));
+        let layers = self.fields[first - self.first..].iter();
         layers.zip(weights).map(|(field, weight)| weight * field.at(u, v)).sum()
     }
 }
