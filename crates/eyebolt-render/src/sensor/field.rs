@@ -102,11 +102,11 @@ impl Layers {
         Self { first, fields: layers.map(field).collect(), per_unit }
     }
 
-    /// The value at pixel `(u, v)` and `depth`, one of those the layers were made for; beyond the
-    /// last layer, that of the last.
+    /// The value at pixel `(u, v)` and `depth`, one of those the layers were made for; beyond
+    /// them, that of the last.
     pub fn at(&self, u: usize, v: usize, depth: f32) -> f32 {
-        let last = (self.first + self.fields.len() - 3) as f32;
-        let (first, weights) = weights((depth * self.per_unit).min(last));
+        let end = (self.first + self.fields.len() - 2) as f32;
+        let (first, weights) = weights((depth * self.per_unit).min(end.next_down()));
         let layers = self.fields[first - self.first..].iter();
         layers.zip(weights).map(|(field, weight)| weight * field.at(u, v)).sum()
     }
