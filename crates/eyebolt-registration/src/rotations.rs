@@ -1,5 +1,6 @@
 //! Rotations spread evenly over SO(3).
 
+use eyebolt_render::Random;
 use nalgebra::{Quaternion, UnitQuaternion, Vector4};
 use std::f64::consts::TAU;
 
@@ -23,18 +24,10 @@ pub fn spread_rotations(count: usize, seed: u64) -> Vec<UnitQuaternion<f64>> {
         .collect()
 }
 
-/// A rotation drawn evenly from SO(3) (Shoemake, Graphics Gems III) with three numbers from
-/// SplitMix64.
+/// A rotation drawn evenly from SO(3) (Shoemake, Graphics Gems III).
 fn any_rotation(seed: u64) -> UnitQuaternion<f64> {
-    let mut state = seed;
-    let mut draw = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    };
-    let (radius, a, b) = (draw(), TAU * draw(), TAU * draw());
+    let mut random = Random::new(seed);
+    let (radius, a, b) = (random.uniform(), TAU * random.uniform(), TAU * random.uniform());
     let (r, big_r) = (radius.sqrt(), (1.0 - radius).sqrt());
     let [x, y, z, w] = [big_r * a.sin(), big_r * a.cos(), r * b.sin(), r * b.cos()];
     UnitQuaternion::from_quaternion(Quaternion::from(Vector4::new(x, y, z, w)))

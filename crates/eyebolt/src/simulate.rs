@@ -27,7 +27,7 @@ use configurations::{Onlooker, Pose, choose};
 use eyebolt_geometry::{Base, Camera, CameraError, PinholeCamera, Transform};
 use eyebolt_recording::WriteError;
 use eyebolt_registration::LinkCache;
-use eyebolt_render::{Random, RayScene, Sensor};
+use eyebolt_render::{Random, RayScene, SceneMesh, Sensor};
 use eyebolt_robot::Arm;
 use nalgebra::Point3;
 use surroundings::in_place;
@@ -160,5 +160,11 @@ impl Plan<'_> {
     /// What stands around: the room, then the clutter.
     pub fn solids(&self) -> &[Solid] {
         &self.solids
+    }
+
+    /// The links of `arm`, then what stands around.
+    fn scene(&self, arm: &[SceneMesh<'_>]) -> RayScene {
+        let around = self.solids.iter().map(in_place);
+        RayScene::new(&arm.iter().copied().chain(around).collect::<Vec<_>>())
     }
 }

@@ -1,14 +1,13 @@
 //! What the camera sees of a plan, as a recording.
 
 use super::faults::Encoders;
-use super::surroundings::in_place;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::{Choice, Plan, Scenario, SimulateError, Viewpoint};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{
     CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError, WriteProgress,
 };
-use eyebolt_render::{Exposure, RayScene, SceneMesh, Specimen};
+use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
@@ -113,9 +112,7 @@ impl Plan<'_> {
         arm: &[SceneMesh<'_>],
         base_from_camera: &Transform<Base, Camera>,
     ) -> Exposure {
-        let around = self.solids.iter().map(in_place);
-        let meshes: Vec<SceneMesh<'_>> = arm.iter().copied().chain(around).collect();
-        let scene = RayScene::new(&meshes);
+        let scene = self.scene(arm);
         let faults = &self.scenario.faults;
         let specimen = Specimen {
             random: Choice::Specimen.of(self.scenario.seed),

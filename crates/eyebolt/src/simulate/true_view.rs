@@ -1,8 +1,7 @@
 //! What each pixel really sees: labels that nobody has to make.
 
 use super::Plan;
-use super::surroundings::in_place;
-use eyebolt_render::{RayScene, SceneMesh, View};
+use eyebolt_render::View;
 
 /// What an ideal camera sees of one configuration, and of what.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,17 +32,14 @@ impl Plan<'_> {
     /// If there is no such configuration.
     pub fn true_view(&self, index: usize) -> TrueView {
         let arm = self.body.scene_meshes(&self.poses[index].posture);
-        let links = arm.len();
-        let meshes: Vec<SceneMesh<'_>> =
-            arm.into_iter().chain(self.solids.iter().map(in_place)).collect();
-        let view = RayScene::new(&meshes).view(&self.camera, &self.base_from_camera);
+        let view = self.scene(&arm).view(&self.camera, &self.base_from_camera);
         let seen = view.surface.iter().map(|surface| usize::from(*surface));
         let label = seen.clone().map(|surface| match self.body.is_end_effector.get(surface) {
             None => TrueView::BACKGROUND,
             Some(false) => TrueView::ARM,
             Some(true) => TrueView::END_EFFECTOR,
         });
-        let link = seen.map(|surface| (surface < links).then(|| self.body.links[surface]));
+        let link = seen.map(|surface| (surface < arm.len()).then(|| self.body.links[surface]));
         TrueView { label: label.collect(), link: link.collect(), view }
     }
 }
