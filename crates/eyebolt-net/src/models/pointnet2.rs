@@ -7,8 +7,6 @@ use crate::graph::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Of the head, in training.
-const DROPOUT: f32 = 0.5;
 /// More of anything is a mistake, or malice.
 const MOST: usize = 1 << 14;
 
@@ -58,6 +56,8 @@ pub struct PointNet2 {
     pub task: Task,
     /// Channels of the layer before the logits.
     pub head: usize,
+    /// Share of that layer's values that training drops.
+    pub dropout: f32,
 }
 
 impl PointNet2 {
@@ -79,6 +79,7 @@ impl PointNet2 {
             ],
             task: segmentation(),
             head: 128,
+            dropout: 0.5,
         }
     }
 
@@ -139,13 +140,19 @@ impl PointNet2 {
             }
         };
         let x = layers(&mut g, "head", x, &[self.head]);
-        let x = g.dropout(x, DROPOUT);
+        let x = g.dropout(x, self.dropout);
         let logits = g.linear("logits", x, self.outputs, true);
         Ok(g.finish(&[logits]))
     }
 
     fn check(&self) -> Result<(), Error> {
         let bad = |problem: String| Err(Error::network("pointnet2", problem));
+        if !(0.0..1.0).contains(&self.dropout) {
+            return bad(format!(
+                "dropout {} is not from 0 up to but not including 1",
+                self.dropout
+            ));
+        }
         let mut counts = vec![self.inputs, self.outputs, self.head];
         for level in &self.abstractions {
             counts.push(level.samples);

@@ -76,8 +76,16 @@ pub fn reordered(values: &Matrix, have: &[[i32; 4]], wanted: &[[i32; 4]]) -> Vec
 
 /// Largest difference in shares of the largest value.
 pub fn assert_close(name: &str, found: &[f32], expected: &[f32], tolerance: f32) {
-    assert_eq!(found.len(), expected.len(), "{name}");
     let largest = expected.iter().fold(1e-20_f32, |a, b| a.max(b.abs()));
-    let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-    assert!(worst <= tolerance * largest, "{name}: off by {worst} of {largest}");
+    assert_within(name, found, expected, tolerance * largest);
+}
+
+/// That no value is off by more than this.
+pub fn assert_within(name: &str, found: &[f32], expected: &[f32], tolerance: f32) {
+    assert_eq!(found.len(), expected.len(), "{name}");
+    for (at, (found, expected)) in found.iter().zip(expected).enumerate() {
+        // Not by a maximum, in which a NaN would be lost.
+        let is_close = (found - expected).abs() <= tolerance;
+        assert!(is_close, "{name}: value {at} is {found}, not {expected} within {tolerance}");
+    }
 }

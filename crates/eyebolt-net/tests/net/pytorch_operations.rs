@@ -158,3 +158,31 @@ fn pools_and_activations() {
         assert_close("features", &of_features, fixture.floats("rest.of.features"), TOLERANCE);
     }
 }
+
+#[test]
+fn slices_linear_layers_and_dropout() {
+    let fixture = Fixture::read("operations");
+    let (cells, points) = (fixture.cells("cells"), fixture.cells("points"));
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 6);
+    let sliced = g.combine("slice", x, MapSpec::Slice).unwrap();
+    let linear = g.linear("layer", sliced, 5, true);
+    let dropped = g.dropout(linear, 0.3);
+    let graph = g.finish(&[linear, dropped]);
+    let parameters = parameters(&graph, |_, _, values| values);
+    let (batch, finest) = batch(&graph, &points, "points", 6);
+    for mut executor in executors() {
+        let forward = executor.forward(&graph, &parameters, &batch, 3).unwrap();
+        for (output, name) in forward.outputs.iter().zip(["linear", "dropout"]) {
+            assert_close(name, output.values(), fixture.floats(name), TOLERANCE);
+        }
+        let of = ["linear", "dropout"]
+            .map(|name| hashed_matrix(&format!("{name}.weigh"), points.len(), 5));
+        let found = executor.backward(&graph, &parameters, &batch, &of, true).unwrap();
+        let of_features = reordered(&found.inputs[0], &finest, &cells);
+        let expected = |part: &str| fixture.floats(&format!("heads.of.{part}"));
+        assert_close("features", &of_features, expected("features"), TOLERANCE);
+        assert_close("weight", &found.parameters[0], expected("weight"), TOLERANCE);
+        assert_close("bias", &found.parameters[1], expected("bias"), TOLERANCE);
+    }
+}

@@ -1,6 +1,6 @@
 //! Sampling, neighbours, interpolation and small PointNet++ networks against plain PyTorch.
 
-use crate::fixtures::{Fixture, assert_close, hashed, hashed_matrix};
+use crate::fixtures::{Fixture, assert_close, assert_within, hashed, hashed_matrix};
 use eyebolt_net::models::{Abstraction, PointNet2, Scale, Task};
 use eyebolt_net::reference::Reference;
 use eyebolt_net::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
@@ -59,6 +59,7 @@ fn network(several: bool) -> PointNet2 {
         ],
         task: Task::Segmentation(vec![vec![11], vec![12, 13]]),
         head: 9,
+        dropout: 0.0,
     }
 }
 
@@ -76,16 +77,39 @@ fn parameters(graph: &Graph, prefix: &str) -> Parameters {
 }
 
 #[test]
-fn segmentation_networks() {
+fn networks_forward_and_backward() {
     let fixture = Fixture::read("points");
     let points = points();
-    for (name, several) in [("one", false), ("two", true)] {
-        let graph = network(several).graph().unwrap();
+    let classification = PointNet2 { task: Task::Classification(vec![14, 15]), ..network(true) };
+    for (name, net) in [("one", network(false)), ("two", network(true)), ("class", classification)]
+    {
+        let graph = net.graph().unwrap();
         let features = hashed_matrix("points", 200, 3);
-        let batch = Batch::from_points(&graph, &points, &[200], &features, Sampling::Farthest);
+        let batch = Batch::from_points(&graph, &points, &[25; 8], &features, Sampling::Farthest);
+        let batch = batch.unwrap();
         let parameters = parameters(&graph, &format!("{name}."));
-        let logits = Cpu::new().infer(&graph, &parameters, &batch.unwrap()).unwrap();
-        assert_close(name, logits[0].values(), fixture.floats(name), 1e-5);
+        let expected = |part: &str| fixture.floats(&format!("{name}.{part}"));
+        let mut cpu: Box<dyn Executor> = Box::new(Cpu::new());
+        let mut plain: Box<dyn Executor> = Box::new(Reference::<f64>::new());
+        for (executor, tolerance) in [(&mut cpu, 1e-5), (&mut plain, 1e-6)] {
+            let logits = executor.infer(&graph, &parameters, &batch).unwrap();
+            assert_close(name, logits[0].values(), expected("inferred"), tolerance);
+            let forward = executor.forward(&graph, &parameters, &batch, 0).unwrap();
+            assert_close(name, forward.outputs[0].values(), expected("trained"), tolerance);
+            let of = hashed_matrix(&format!("{name}.weigh"), forward.outputs[0].rows(), 3);
+            let found = executor.backward(&graph, &parameters, &batch, &[of], true).unwrap();
+            assert_close(name, found.inputs[0].values(), expected("of.features"), tolerance);
+            for (spec, values) in graph.parameters().iter().zip(&found.parameters) {
+                if spec.role.is_trained() {
+                    let wanted = expected(&format!("of.{}", spec.name));
+                    // A bias before a batch norm has no gradient, so the scale is the weights'.
+                    let weights =
+                        expected(&format!("of.{}", spec.name.replace(".bias", ".weight")));
+                    let largest = weights.iter().fold(0.0_f32, |a, b| a.max(b.abs()));
+                    assert_within(&spec.name, values, wanted, tolerance * largest);
+                }
+            }
+        }
     }
 }
 
