@@ -1,6 +1,6 @@
 """Makes the files in `seeds/` that fuzzing begins with: a small one of every kind of every format.
 
-    pip install numpy==1.26.4 rosbags==0.11.9 mcap==1.6.0 lz4==4.4.5 zstandard==0.25.0
+    pip install numpy==1.26.4 rosbags==0.11.9 mcap==1.6.0 lz4==4.4.5 zstandard==0.25.0 safetensors==0.8.0
     python make_seeds.py
 
 What the tests of the crates have as fixtures is copied from there. Check sums inside MCAP are left
@@ -20,6 +20,7 @@ from mcap.writer import CompressionType
 from mcap.writer import Writer as McapWriter
 from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from safetensors.numpy import save
 
 HERE = Path(__file__).parent
 SEEDS = HERE / "seeds"
@@ -547,6 +548,68 @@ def truths() -> None:
     put("truth/least.json", json.dumps(least))
 
 
+def tensors(norm: str = "norm.", dtype: type = np.float32) -> dict:
+    """Of the network in `src/lib.rs`; `norm` is how the parameters of its batch norm begin."""
+    named = {"convolution.kernel": (27, 1, 1), "convolution.bias": (1,), "linear.weight": (1, 1), "linear.bias": (1,)}
+    named |= {norm + part: (1,) for part in ("weight", "bias", "running_mean", "running_var")}
+    return {name: np.full(shape, 0.5, dtype) for name, shape in named.items()}
+
+
+RULE = """schedule = { constant = { rate = 0.01 } }
+seed = "18446744073709551615"
+step = 3
+updates = 3
+"""
+RULES = {
+    "sgd": "rule = { sgd = { momentum = 0.9, weight_decay = 0.0001 } }",
+    "adam": "rule = { adam = { beta1 = 0.9, beta2 = 0.999, epsilon = 1e-8, weight_decay = 0.0, decoupled = true } }",
+}
+
+
+def weights() -> None:
+    put("weights/float32.safetensors", save(tensors()))
+    put("weights/float16.safetensors", save(tensors(dtype=np.float16)))
+    minkowski = tensors("norm.bn.") | {"convolution.bias": np.zeros((1, 1), np.float32)}
+    put("weights/minkowski.safetensors", save(minkowski | {"norm.bn.num_batches_tracked": np.array(7)}))
+    for name, rule in RULES.items():
+        memory = {"sgd": ("", "first."), "adam": ("", "first.", "second.")}[name]
+        all_of_it = {part + key: value for part in memory for key, value in tensors().items()}
+        put(f"weights/{name}.safetensors", save(all_of_it, {"trainer": rule + "\n" + RULE}))
+
+
+MODEL = """features = ["height", "one"]
+classes = ["scene", "arm", "hand"]
+frame = "camera_optical"
+trained_on = "simulation"
+commit = "0"
+"""
+MINKUNET = """block = "bottleneck"
+layers = [1, 1, 1, 1, 1, 1, 1, 1]
+channels = [2, 2, 2, 2, 2, 2, 2, 2]
+stem_channels = 2
+stem_kernel = 3
+inputs = 2
+outputs = 3
+"""
+POINTNET = """inputs = 2
+outputs = 3
+head = 4
+dropout = 0.5
+task = { segmentation = [[3, 3]] }
+[[architecture.pointnet2.abstractions]]
+samples = 8
+scales = [{ radius = 0.1, neighbours = 4, channels = [3, 4] }]
+"""
+
+
+def models() -> None:
+    voxels = "voxel_m = 0.005\n" + MODEL + "[metrics]\niou = 0.5\n"
+    put("model/minkunet.toml", voxels + "[architecture.minkunet]\n" + MINKUNET + "head = { hidden = [256, 1024] }\n")
+    regression = "[architecture.minkunet_regression]\nwidths = [2048, 4]\n[architecture.minkunet_regression.encoder]\n"
+    put("model/regression.toml", voxels + regression + MINKUNET + 'head = "convolution"\n')
+    put("model/pointnet2.toml", MODEL + "[metrics]\n[architecture.pointnet2]\n" + POINTNET)
+
+
 TREE = """transforms:
 - header:
     stamp: {sec: 1, nanosec: 2}
@@ -571,6 +634,8 @@ def main() -> None:
     clouds()
     calibrations()
     truths()
+    weights()
+    models()
     sizes = [path.stat().st_size for path in SEEDS.rglob("*") if path.is_file()]
     assert max(sizes) < 20_000 and sum(sizes) < 300_000, (max(sizes), sum(sizes))
     print(f"{len(sizes)} seeds, {sum(sizes)} bytes")

@@ -1,5 +1,8 @@
-//! What the fuzz targets share: files for the readers that open them by themselves.
+//! What the fuzz targets share: files for the readers that open them by themselves, and a network
+//! for weights.
 
+use eyebolt_net::coordinates::{Kernel, KernelSpec};
+use eyebolt_net::graph::{Domain, Graph, GraphBuilder, Source};
 use eyebolt_recording::{BagOptions, Recording, WriteRobot, read_truth, write_mcap};
 use std::fs;
 use std::io::Cursor;
@@ -49,4 +52,15 @@ pub fn recording(path: &Path) {
 pub fn bag(path: &Path) {
     eyebolt_recording::fuzzing::bag(path, &FOLDER);
     recording(path);
+}
+
+/// A network of a few values with a parameter of every kind.
+pub fn network() -> Graph {
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 1);
+    let spec = KernelSpec { kernel: Kernel::new(3), from: 1, to: 1 };
+    let x = g.convolution("convolution", x, spec, 1, true).expect("a convolution");
+    let x = g.batch_norm("norm", x);
+    let x = g.linear("linear", x, 1, true);
+    g.finish(&[x]).expect("a network")
 }

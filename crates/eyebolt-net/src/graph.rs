@@ -5,10 +5,12 @@
 //! [`Parameters`](crate::Parameters).
 
 mod builder;
+mod check;
 mod domain;
 mod op;
 
 pub use builder::GraphBuilder;
+pub use check::MAX_PARAMETERS;
 pub use domain::{Domain, MapSpec, SampleLevel, SampleScale, Source};
 pub use op::{BatchNorm, Op};
 

@@ -2,7 +2,7 @@
 
 use super::{
     BatchNorm, Domain, Graph, MapId, MapSpec, Node, NodeId, Op, ParameterId, ParameterSpec, Role,
-    SampleLevel, Source,
+    SampleLevel, Source, check,
 };
 use crate::Error;
 use crate::coordinates::KernelSpec;
@@ -50,8 +50,8 @@ impl GraphBuilder {
         let plain = spec.kernel.size == 1 && spec.from == spec.to;
         let map = (!plain).then(|| self.map(MapSpec::Kernel(spec)));
         let (volume, inputs) = (spec.kernel.volume(), self.channels(input));
-        let weight =
-            self.weight(format!("{name}.kernel"), &[volume, inputs, channels], volume * inputs);
+        let (shape, fan_in) = ([volume, inputs, channels], volume.saturating_mul(inputs));
+        let weight = self.weight(format!("{name}.kernel"), &shape, fan_in);
         let bias = bias.then(|| self.parameter(format!("{name}.bias"), &[channels], Role::Bias));
         let op = Op::Convolution { map, weight, bias };
         Ok(self.push(name, op, vec![input], channels, domain))
@@ -164,9 +164,14 @@ impl GraphBuilder {
     }
 
     /// The graph that gives these values.
-    pub fn finish(mut self, outputs: &[NodeId]) -> Graph {
+    ///
+    /// # Errors
+    /// If there are none, two parameters have one name, there are more than
+    /// [`MAX_PARAMETERS`] values to learn, or a probability or slope is out of bounds.
+    pub fn finish(mut self, outputs: &[NodeId]) -> Result<Graph, Error> {
         self.graph.outputs = outputs.to_vec();
-        self.graph
+        check::graph(&self.graph)?;
+        Ok(self.graph)
     }
 
     fn node(&self, id: NodeId) -> &Node {

@@ -129,7 +129,7 @@ impl MinkUNet {
         }
         let x = self.logits(&mut g, x)?;
         let points = g.combine("slice", x, MapSpec::Slice)?;
-        Ok(g.finish(&[points]))
+        g.finish(&[points])
     }
 
     /// The encoder alone, its mean over each item, and linear layers of these widths with leaky
@@ -149,7 +149,7 @@ impl MinkUNet {
             }
             x = g.linear(&format!("regression.{index}"), x, width, true);
         }
-        Ok(g.finish(&[x]))
+        g.finish(&[x])
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -142,7 +142,7 @@ impl PointNet2 {
         let x = layers(&mut g, "head", x, &[self.head]);
         let x = g.dropout(x, self.dropout);
         let logits = g.linear("logits", x, self.outputs, true);
-        Ok(g.finish(&[logits]))
+        g.finish(&[logits])
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -98,7 +98,7 @@ fn no_channels() {
     let some = g.convolution("some", input, crate::scenes::within(3, 1, 1), 2, true).unwrap();
     let none = g.linear("none", some, 0, true);
     let none = g.batch_norm("norm", none);
-    let graph = g.finish(&[some, none]);
+    let graph = g.finish(&[some, none]).unwrap();
     let batch = Batch::from_voxels(&graph, &[[0, 1, 2, 3]; 2], &Matrix::zeros(2, 0)).unwrap();
     assert_finite(&graph, &Parameters::initial(&graph, 0), &batch);
 }

@@ -112,7 +112,7 @@ fn what_belongs_to_another_network_is_refused() {
     let mut g = eyebolt_net::GraphBuilder::new();
     let domain = eyebolt_net::graph::Domain::Voxels { stride: 1 };
     let input = g.input(eyebolt_net::graph::Source::Features, domain, 4);
-    let other = g.finish(&[input]);
+    let other = g.finish(&[input]).unwrap();
     let mut cpu = Cpu::new();
     let error = cpu.infer(&other, &Parameters::initial(&other, 0), &case.batch).unwrap_err();
     assert!(error.to_string().contains("another network"), "{error}");

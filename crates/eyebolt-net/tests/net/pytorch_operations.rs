@@ -41,7 +41,7 @@ fn convolution(
         x = g.convolution("first", x, first, inputs, false).unwrap();
     }
     let y = g.convolution(name, x, spec, outputs, true).unwrap();
-    let graph = g.finish(&[y]);
+    let graph = g.finish(&[y]).unwrap();
     let half = |name: &str, _: &[usize], values: Vec<f32>| {
         let scale = if name.ends_with(".kernel") { 0.5 } else { 1.0 };
         values.into_iter().map(|value| scale * value).collect()
@@ -97,7 +97,7 @@ fn batch_norms() {
         let mut g = GraphBuilder::new();
         let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 5);
         let y = g.batch_norm(name, x);
-        let graph = g.finish(&[y]);
+        let graph = g.finish(&[y]).unwrap();
         let parameters = parameters(&graph, |name, _, values| {
             let change = |value| match name.rsplit_once('.').unwrap().1 {
                 "weight" => 1.0 + 0.2 * value,
@@ -143,7 +143,7 @@ fn pools_and_activations() {
     let pooled = g.concatenate("pooled", &[mean, largest]).unwrap();
     let (leaky, relu) = (g.leaky_relu(x, 0.1), g.relu(x));
     let sum = g.add("sum", leaky, relu).unwrap();
-    let graph = g.finish(&[pooled, sum]);
+    let graph = g.finish(&[pooled, sum]).unwrap();
     let parameters = parameters(&graph, |_, _, values| values);
     let (batch, finest) = batch(&graph, &cells, "rest", 6);
     for mut executor in executors() {
@@ -168,7 +168,7 @@ fn slices_linear_layers_and_dropout() {
     let sliced = g.combine("slice", x, MapSpec::Slice).unwrap();
     let linear = g.linear("layer", sliced, 5, true);
     let dropped = g.dropout(linear, 0.3);
-    let graph = g.finish(&[linear, dropped]);
+    let graph = g.finish(&[linear, dropped]).unwrap();
     let parameters = parameters(&graph, |_, _, values| values);
     let (batch, finest) = batch(&graph, &points, "points", 6);
     for mut executor in executors() {

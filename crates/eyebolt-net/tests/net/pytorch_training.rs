@@ -38,7 +38,7 @@ fn optimisers() {
     let mut g = GraphBuilder::new();
     let x = g.input(Source::Features, Domain::Points, 2);
     let y = g.linear("layer", x, 3, false);
-    let graph = g.finish(&[y]);
+    let graph = g.finish(&[y]).unwrap();
     let sgd = Rule::Sgd { momentum: 0.9, weight_decay: 0.1 };
     for (name, rule) in [("adam", Rule::adam(0.1)), ("adamw", Rule::adamw(0.1)), ("sgd", sgd)] {
         let mut parameters = Parameters::new(&graph, vec![hashed("start", 6)]).unwrap();

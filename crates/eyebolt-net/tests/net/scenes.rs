@@ -77,7 +77,7 @@ pub fn every_operation() -> Graph {
     let points = g.combine("slice", up, MapSpec::Slice).unwrap();
     let points = g.linear("head", points, 5, true);
     let pooled = pooled(&mut g, even, 4);
-    g.finish(&[points, pooled])
+    g.finish(&[points, pooled]).unwrap()
 }
 
 fn pooled(g: &mut GraphBuilder, value: NodeId, stride: u32) -> NodeId {
