@@ -1,10 +1,11 @@
 //! Sampling, neighbours, interpolation and small PointNet++ networks against plain PyTorch.
 
 use crate::fixtures::{Fixture, assert_close, assert_within, hashed, hashed_matrix};
+use crate::runs::{executors, forward_backward};
 use eyebolt_net::models::{Abstraction, PointNet2, Scale, Task};
 use eyebolt_net::reference::Reference;
 use eyebolt_net::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Parameters, Sampling};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters, Sampling};
 
 fn points() -> Vec<[f32; 3]> {
     hashed("points", 600).as_chunks::<3>().0.to_vec()
@@ -29,6 +30,15 @@ fn sampling_and_grouping() {
     assert_eq!(integers(nearest.iter().flat_map(|(at, _)| *at)), fixture.integers("nearest"));
     let weights: Vec<f32> = nearest.iter().flat_map(|(_, weights)| *weights).collect();
     assert_close("weights", &weights, fixture.floats("weights"), 1e-5);
+}
+
+#[test]
+fn fewer_than_three_sources_share_what_they_are_due() {
+    let sources = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    let between = three_nearest(&sources, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    assert_eq!(between[0].1, [0.5, 0.5, 0.0]);
+    assert!(between[1].1[0] > 0.999_999 && between[1].0[0] == 0);
+    assert_eq!(three_nearest(&sources[..1], &sources), [([0; 3], [1.0, 0.0, 0.0]); 2]);
 }
 
 #[test]
@@ -89,15 +99,16 @@ fn networks_forward_and_backward() {
         let batch = batch.unwrap();
         let parameters = parameters(&graph, &format!("{name}."));
         let expected = |part: &str| fixture.floats(&format!("{name}.{part}"));
-        let mut cpu: Box<dyn Executor> = Box::new(Cpu::new());
-        let mut plain: Box<dyn Executor> = Box::new(Reference::<f64>::new());
-        for (executor, tolerance) in [(&mut cpu, 1e-5), (&mut plain, 1e-6)] {
+        for mut executor in executors() {
+            let tolerance = if executor.device() == "reference, f64" { 1e-6 } else { 1e-5 };
             let logits = executor.infer(&graph, &parameters, &batch).unwrap();
             assert_close(name, logits[0].values(), expected("inferred"), tolerance);
-            let forward = executor.forward(&graph, &parameters, &batch, 0).unwrap();
+            let case = (&graph, &parameters, &batch);
+            let of = |outputs: &[Matrix]| {
+                vec![hashed_matrix(&format!("{name}.weigh"), outputs[0].rows(), 3)]
+            };
+            let (forward, found) = forward_backward(&mut *executor, case, 0, of);
             assert_close(name, forward.outputs[0].values(), expected("trained"), tolerance);
-            let of = hashed_matrix(&format!("{name}.weigh"), forward.outputs[0].rows(), 3);
-            let found = executor.backward(&graph, &parameters, &batch, &[of], true).unwrap();
             assert_close(name, found.inputs[0].values(), expected("of.features"), tolerance);
             for (spec, values) in graph.parameters().iter().zip(&found.parameters) {
                 if spec.role.is_trained() {
@@ -123,7 +134,7 @@ fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
         let batch = |range: std::ops::Range<usize>, sizes: &[usize]| {
             let all = hashed("points", 600);
             let features = all[3 * range.start..3 * range.end].to_vec();
-            let features = eyebolt_net::Matrix::new(range.len(), 3, features).unwrap();
+            let features = Matrix::new(range.len(), 3, features).unwrap();
             let points = &points[range];
             Batch::from_points(&graph, points, sizes, &features, Sampling::Uniform(3)).unwrap()
         };
@@ -136,8 +147,7 @@ fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
         // Of two rows a batch norm leaves only signs, and gradients are what rounding leaves.
         let batch = batch(0..200, &[25; 8]);
         let gradients = |executor: &mut dyn Executor| {
-            let forward = executor.forward(&graph, &parameters, &batch, 9).unwrap();
-            executor.backward(&graph, &parameters, &batch, &forward.outputs, true).unwrap()
+            forward_backward(executor, (&graph, &parameters, &batch), 9, <[_]>::to_vec).1
         };
         let expected = gradients(&mut Reference::<f64>::new());
         let found = gradients(&mut Cpu::new());
