@@ -42,7 +42,8 @@ impl Batch {
             return Err(Error::input("features", problem));
         }
         if let Some(at) = voxel_of_point.iter().position(|&voxel| voxel as usize >= finest.len()) {
-            let problem = format!("point {at} is in voxel {} of {}", voxel_of_point[at], finest.len());
+            let problem =
+                format!("point {at} is in voxel {} of {}", voxel_of_point[at], finest.len());
             return Err(Error::input("voxel_of_point", problem));
         }
         let points = voxel_of_point.len();
