@@ -167,7 +167,7 @@ impl GraphBuilder {
     ///
     /// # Errors
     /// If there are none, two parameters have one name, there are more than
-    /// [`MAX_PARAMETERS`] values to learn, or a probability or slope is out of bounds.
+    /// [`MAX_PARAMETERS`](super::MAX_PARAMETERS) values to learn, or a probability or slope is out of bounds.
     pub fn finish(mut self, outputs: &[NodeId]) -> Result<Graph, Error> {
         self.graph.outputs = outputs.to_vec();
         check::graph(&self.graph)?;
