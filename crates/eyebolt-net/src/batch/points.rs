@@ -2,8 +2,9 @@
 
 use super::{Batch, Map};
 use crate::graph::{Domain, Graph, MapSpec, Source};
+use crate::random::Random;
 use crate::row_map::{RowMap, Runs};
-use crate::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
+use crate::sampling::{ball_query, farthest_points, three_nearest, uniform_points_by};
 use crate::{Error, Matrix};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,7 +14,8 @@ use std::sync::Arc;
 pub enum Sampling {
     /// Each the farthest from those before it.
     Farthest,
-    /// Without preference, by this seed.
+    /// Without preference, by this seed: in every item, by its place in the batch, and at every
+    /// level other ones.
     Uniform(u64),
 }
 
@@ -28,13 +30,19 @@ impl Level {
         self.starts.windows(2).map(|pair| (pair[0], &self.points[pair[0]..pair[1]]))
     }
 
-    fn sampled(&self, count: usize, sampling: Sampling) -> Self {
+    /// Samples of these points, `level` times sampled before.
+    fn sampled(&self, level: u64, count: usize, sampling: Sampling) -> Self {
         let mut points = Vec::new();
         let mut starts = vec![0];
-        for (_, item) in self.items() {
+        for (place, (_, item)) in (0..).zip(self.items()) {
             let chosen = match sampling {
                 Sampling::Farthest => farthest_points(item, count),
-                Sampling::Uniform(seed) => uniform_points(item.len(), count, seed),
+                // One stream for all would take points of the same places from items alike in
+                // size, and tie the samples of a level to those of the one below.
+                Sampling::Uniform(seed) => {
+                    let random = Random::new(seed).at(level).at(place);
+                    uniform_points_by(random, item.len(), count)
+                }
             };
             points.extend(chosen.into_iter().map(|at| item[at as usize]));
             starts.push(points.len());
@@ -49,7 +57,7 @@ impl Batch {
     ///
     /// # Errors
     /// If there are no items or an item has no point, a value is not finite, or there are not as
-    /// many features as the graph takes.
+    /// many features as the graph takes, or it is a graph on voxels.
     pub fn from_points(
         graph: &Graph,
         points: &[[f32; 3]],
@@ -75,6 +83,7 @@ impl Batch {
                 format!("{} channels; the network takes {}", features.channels(), node.channels),
             )),
             Source::Offsets { level, scale } => offsets(graph, &levels, &groups, level, scale),
+            Source::Positions { level } => positions(at(&levels, level)?),
         });
         let inputs = inputs.collect::<Result<_, Error>>()?;
         Ok(Self { rows, maps, inputs })
@@ -102,8 +111,8 @@ fn levels(
     let mut starts = vec![0];
     item_sizes.iter().for_each(|size| starts.push(starts[starts.len() - 1] + size));
     let mut levels = vec![Level { points: points.to_vec(), starts }];
-    for spec in graph.sampling() {
-        let sampled = levels[levels.len() - 1].sampled(spec.samples, sampling);
+    for (level, spec) in (0..).zip(graph.sampling()) {
+        let sampled = levels[levels.len() - 1].sampled(level, spec.samples, sampling);
         levels.push(sampled);
     }
     Ok(levels)
@@ -168,6 +177,10 @@ fn offsets(
     Matrix::new(rows.len(), 3, values.collect())
 }
 
+fn positions(level: &Level) -> Result<Matrix, Error> {
+    Matrix::new(level.points.len(), 3, level.points.iter().flatten().copied().collect())
+}
+
 fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Result<Map, Error> {
     let starts = |domain| match domain {
         Domain::Points => Ok(&levels[0].starts),
@@ -179,8 +192,8 @@ fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Resul
         Ok::<_, Error>(Runs::new(starts.iter().map(|&start| start as u32).collect()))
     };
     Ok(match spec {
-        MapSpec::Items(domain) => Map::Runs(Arc::new(runs(domain)?)),
-        MapSpec::Means(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
+        MapSpec::GlobalMax(domain) => Map::Runs(Arc::new(runs(domain)?)),
+        MapSpec::GlobalAverage(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
         MapSpec::Group { level, scale } => {
             let inputs = at(levels, level - 1)?.points.len();
             Map::Rows(Arc::new(RowMap::gather(inputs, groups[&(level, scale)].clone())))

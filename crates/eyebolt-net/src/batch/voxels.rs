@@ -51,11 +51,11 @@ impl Batch {
             maps.push(match spec {
                 MapSpec::Kernel(spec) => Map::Kernel(neighbours.map(spec)?),
                 MapSpec::Slice => Map::Rows(slice.clone()),
-                MapSpec::Items(Domain::Voxels { stride }) => {
+                MapSpec::GlobalMax(Domain::Voxels { stride }) => {
                     let voxels = neighbours.voxels(stride)?;
                     Map::Runs(Arc::new(runs(&voxels)?))
                 }
-                MapSpec::Means(Domain::Voxels { stride }) => {
+                MapSpec::GlobalAverage(Domain::Voxels { stride }) => {
                     let voxels = neighbours.voxels(stride)?;
                     Map::Rows(Arc::new(RowMap::means(&runs(&voxels)?)))
                 }
@@ -68,7 +68,9 @@ impl Batch {
                 "features",
                 format!("{} channels; the network takes {}", features.channels(), node.channels),
             )),
-            Source::Offsets { .. } => Err(Error::network("graph", "samples points")),
+            Source::Offsets { .. } | Source::Positions { .. } => {
+                Err(Error::network("graph", "takes places of points; use Batch::from_points"))
+            }
         });
         let inputs = sources.collect::<Result<_, Error>>()?;
         Ok(Self { rows, maps, inputs })
