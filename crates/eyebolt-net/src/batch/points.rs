@@ -56,8 +56,8 @@ impl Batch {
     /// the graph's radii), how many each item has, and their features, one row each.
     ///
     /// # Errors
-    /// If there are no items or an item has no point, a value is not finite, or there are not as
-    /// many features as the graph takes, or it is a graph on voxels.
+    /// If there are no items or an item has no point, a value is not finite, there are not as many
+    /// features as the graph takes, or it is a graph on voxels.
     pub fn from_points(
         graph: &Graph,
         points: &[[f32; 3]],
