@@ -8,7 +8,7 @@
 use eyebolt_net::coordinates::{Neighbours, VoxelSet, average_features};
 use eyebolt_net::graph::MapSpec;
 use eyebolt_net::models::MinkUNet;
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters, PassOptions};
 use std::time::Instant;
 
 #[path = "minkunet_bench/machine.rs"]
@@ -131,8 +131,8 @@ fn train(
     parameters: &Parameters,
     batch: &Batch,
 ) -> Result<(), Failure> {
-    let forward = cpu.forward(graph, parameters, batch, 0)?;
     // Of half the sum of squares: the loss costs nothing beside the network.
-    cpu.backward(graph, parameters, batch, &forward.outputs, false)?;
+    let mut of = |outputs: &[Matrix]| Ok(outputs.to_vec());
+    cpu.forward_backward(graph, parameters, batch, PassOptions::default(), &mut of)?;
     Ok(())
 }

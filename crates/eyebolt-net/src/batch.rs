@@ -6,45 +6,82 @@ mod voxels;
 pub use points::Sampling;
 
 use crate::coordinates::KernelMap;
-use crate::graph::{Graph, MapId};
+use crate::graph::{Domain, Graph, MapId, MapSpec, Node, SampleLevel, Source};
 use crate::row_map::{RowMap, Runs};
-use crate::{Error, Matrix, Parameters};
+use crate::{Error, Matrix, identity};
 use std::sync::Arc;
 
 /// A map of a graph, for the points at hand.
 #[derive(Clone, Debug)]
-pub(crate) enum Map {
+pub enum Map {
+    /// Of a [`MapSpec::Kernel`].
     Kernel(Arc<KernelMap>),
+    /// Weighted sums of rows.
     Rows(Arc<RowMap>),
+    /// Rows to take the largest of.
     Runs(Arc<Runs>),
-}
-
-impl Map {
-    fn ends(&self) -> (usize, usize) {
-        match self {
-            Self::Kernel(map) => (map.inputs(), map.outputs()),
-            Self::Rows(map) => (map.inputs(), map.outputs()),
-            Self::Runs(runs) => (runs.inputs(), runs.len()),
-        }
-    }
 }
 
 /// The inputs of one run of a graph, with everything that follows from where points are. Made once
 /// by [`Batch::from_voxels`] or [`Batch::from_points`] and good for any number of runs.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// Rows of each of the graph's domains.
-    pub(crate) rows: Vec<usize>,
-    /// In the graph's order.
-    pub(crate) maps: Vec<Map>,
-    /// Of the graph's inputs, in its order.
-    pub(crate) inputs: Vec<Matrix>,
+    id: u64,
+    made_for: Shape,
+    rows: Vec<usize>,
+    maps: Vec<Map>,
+    inputs: Vec<Matrix>,
+}
+
+/// What a graph asks of a batch.
+#[derive(Clone, Debug, PartialEq)]
+struct Shape {
+    domains: Vec<Domain>,
+    maps: Vec<MapSpec>,
+    sampling: Vec<SampleLevel>,
+    inputs: Vec<(Source, usize)>,
+}
+
+impl Shape {
+    fn of(graph: &Graph) -> Self {
+        Self {
+            domains: graph.domains().to_vec(),
+            maps: graph.maps().to_vec(),
+            sampling: graph.sampling().to_vec(),
+            inputs: graph.inputs().map(|(_, node, source)| (source, node.channels)).collect(),
+        }
+    }
 }
 
 impl Batch {
-    /// The values of the graph's inputs.
+    /// Rows of each domain, each map and each input of a graph, in its order.
+    fn new(graph: &Graph, rows: Vec<usize>, maps: Vec<Map>, inputs: Vec<Matrix>) -> Self {
+        Self { id: identity::fresh(), made_for: Shape::of(graph), rows, maps, inputs }
+    }
+
+    /// The same number for this and its clones, another for every other batch.
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// Number of rows of each of the graph's [domains](Graph::domains), in its order.
+    pub fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+
+    /// The graph's [maps](Graph::maps), in its order.
+    pub fn maps(&self) -> &[Map] {
+        &self.maps
+    }
+
+    /// The values of the graph's [inputs](Graph::inputs), in its order.
     pub fn inputs(&self) -> &[Matrix] {
         &self.inputs
+    }
+
+    /// Whether it was made for this graph, or for one that asks for the same neighbours.
+    pub fn is_for(&self, graph: &Graph) -> bool {
+        self.made_for == Shape::of(graph)
     }
 
     pub(crate) fn kernel(&self, map: MapId) -> Result<&KernelMap, Error> {
@@ -67,53 +104,26 @@ impl Batch {
             _ => Err(Error::network("map", "a pool needs runs")),
         }
     }
+}
 
-    /// That it was made for this graph, and the parameters too.
-    pub(crate) fn check(&self, graph: &Graph, parameters: &Parameters) -> Result<(), Error> {
-        let fits =
-            self.rows.len() == graph.domains().len() && self.maps.len() == graph.maps().len();
-        if !fits {
-            return Err(Error::input("batch", "made for another network"));
-        }
-        let inputs: Vec<_> = graph.inputs().collect();
-        if inputs.len() != self.inputs.len() {
-            return Err(Error::input("batch", "made for another network"));
-        }
-        for ((_, node, source), matrix) in inputs.into_iter().zip(&self.inputs) {
-            let expected = (self.rows[node.domain], node.channels);
-            if (matrix.rows(), matrix.channels()) != expected {
-                let (rows, channels) = (matrix.rows(), matrix.channels());
-                let problem = format!(
-                    "{source:?}: {rows} rows of {channels} channels; the network takes {} of {}",
-                    expected.0, expected.1
-                );
-                return Err(Error::input("batch", problem));
-            }
-        }
-        let lengths = parameters.values().iter().map(Vec::len);
-        if !lengths.eq(graph.parameters().iter().map(|spec| spec.len())) {
-            return Err(Error::input("parameters", "made for another network"));
-        }
-        self.check_maps(graph)
+/// The features of the rows of a domain, as an input takes them.
+fn features_for(
+    graph: &Graph,
+    input: &Node,
+    domain: Domain,
+    features: &Matrix,
+) -> Result<Matrix, Error> {
+    let asked = graph.domains()[input.domain];
+    if asked != domain {
+        let problem = format!("takes features on {asked:?}; there are only those on {domain:?}");
+        return Err(Error::network(&input.name, problem));
     }
-
-    /// That every operation's map leads from its input's rows to its own.
-    fn check_maps(&self, graph: &Graph) -> Result<(), Error> {
-        use crate::graph::Op;
-        for node in graph.nodes() {
-            let map = match node.op {
-                Op::Convolution { map: Some(map), .. } => map,
-                Op::Combine { map } | Op::MaxPool { map } => map,
-                _ => continue,
-            };
-            let from = graph.nodes()[node.inputs[0].0].domain;
-            if self.maps[map.0].ends() != (self.rows[from], self.rows[node.domain]) {
-                return Err(Error::input(
-                    "batch",
-                    format!("{}: made for another network", node.name),
-                ));
-            }
-        }
-        Ok(())
+    let (have, wanted) = (features.channels(), input.channels);
+    if have != wanted {
+        return Err(Error::input(
+            "features",
+            format!("{have} channels; the network takes {wanted}"),
+        ));
     }
+    Ok(features.clone())
 }

@@ -10,22 +10,26 @@ mod norm;
 mod panels;
 mod plan;
 mod pool;
+mod task;
 mod train;
 mod weight_gradient;
 
-use crate::executor::{Executor, Forward, Gradients, check_gradients};
+use crate::executor::{
+    Executor, Forward, Gradients, OutputGradients, PassOptions, check, check_output_gradients,
+    check_outputs, check_training,
+};
 use crate::graph::Graph;
 use crate::simd::Isa;
 use crate::{Batch, Error, Matrix, Parameters};
 use buffers::Buffers;
-use train::Kept;
+use task::Task;
 
-/// Runs graphs on the CPU, in the pool of threads that calls come from.
+/// Runs graphs on the CPU, in the pool of threads that calls come from: rayon's own, with a thread
+/// for every core, unless a call is [installed](rayon::ThreadPool::install) in another.
 #[derive(Debug)]
 pub struct Cpu {
     isa: Isa,
     buffers: Buffers,
-    kept: Option<Kept>,
 }
 
 impl Default for Cpu {
@@ -43,7 +47,18 @@ impl Cpu {
     /// With these instructions; the scalar ones if this CPU does not have them.
     pub fn with_isa(isa: Isa) -> Self {
         let isa = if Isa::available().contains(&isa) { isa } else { Isa::Scalar };
-        Self { isa, buffers: Buffers::default(), kept: None }
+        Self { isa, buffers: Buffers::default() }
+    }
+}
+
+impl Cpu {
+    /// Refuses what needs more memory at once than this, apart from weights, maps and outputs, by an
+    /// error. Without it, what the system cannot give is refused, and what it only promised ends the
+    /// program.
+    #[must_use]
+    pub fn with_memory_limit(mut self, bytes: usize) -> Self {
+        self.buffers.set_limit(bytes / size_of::<f32>());
+        self
     }
 }
 
@@ -58,44 +73,44 @@ impl Executor for Cpu {
         parameters: &Parameters,
         batch: &Batch,
     ) -> Result<Vec<Matrix>, Error> {
-        batch.check(graph, parameters)?;
-        self.buffers.set_lean(true);
-        let outputs = infer::infer(self.isa, &mut self.buffers, graph, parameters, batch);
-        self.buffers.trim();
-        outputs
+        check(graph, parameters, batch)?;
+        self.buffers.start(true);
+        let task = Task { isa: self.isa, graph, parameters, batch };
+        let outputs = infer::infer(&task, &mut self.buffers);
+        self.buffers.finish();
+        let outputs = outputs?;
+        check_outputs(&outputs)?;
+        Ok(outputs)
     }
 
-    fn forward(
+    fn forward_backward(
         &mut self,
         graph: &Graph,
         parameters: &Parameters,
         batch: &Batch,
-        seed: u64,
-    ) -> Result<Forward, Error> {
-        batch.check(graph, parameters)?;
-        self.buffers.set_lean(false);
-        if let Some(kept) = self.kept.take() {
-            kept.give_back(&mut self.buffers);
-        }
-        let (forward, kept) =
-            train::forward(self.isa, &mut self.buffers, graph, parameters, batch, seed)?;
-        self.kept = Some(kept);
-        Ok(forward)
+        options: PassOptions,
+        output_gradients: OutputGradients<'_>,
+    ) -> Result<(Forward, Gradients), Error> {
+        check(graph, parameters, batch)?;
+        check_training(graph, batch)?;
+        self.buffers.start(false);
+        let task = Task { isa: self.isa, graph, parameters, batch };
+        let found = pass(&task, &mut self.buffers, options, output_gradients);
+        self.buffers.finish();
+        found
     }
+}
 
-    fn backward(
-        &mut self,
-        graph: &Graph,
-        parameters: &Parameters,
-        batch: &Batch,
-        output_gradients: &[Matrix],
-        with_inputs: bool,
-    ) -> Result<Gradients, Error> {
-        batch.check(graph, parameters)?;
-        check_gradients(graph, batch, output_gradients)?;
-        let kept = self.kept.take().filter(|kept| kept.fits(graph, batch));
-        let kept = kept.ok_or_else(|| Error::input("backward", "no forward pass went before"))?;
-        let task = backward::Task { isa: self.isa, graph, parameters, batch, with_inputs };
-        backward::backward(&task, &mut self.buffers, kept, output_gradients)
-    }
+fn pass(
+    task: &Task<'_>,
+    buffers: &mut Buffers,
+    options: PassOptions,
+    output_gradients: OutputGradients<'_>,
+) -> Result<(Forward, Gradients), Error> {
+    let (forward, kept) = train::forward(task, buffers, options.seed)?;
+    check_outputs(&forward.outputs)?;
+    let gradients = output_gradients(&forward.outputs)?;
+    check_output_gradients(task.graph, task.batch, &gradients)?;
+    let found = backward::backward(task, buffers, kept, &gradients, options.with_inputs)?;
+    Ok((forward, found))
 }

@@ -51,10 +51,10 @@ pub fn cross_entropy(
         }
         let logits = logits.row(row);
         let largest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let exponentials: Vec<f64> =
-            logits.iter().map(|&logit| f64::from(logit - largest).exp()).collect();
+        let below = |logit: f32| f64::from(logit) - f64::from(largest);
+        let exponentials: Vec<f64> = logits.iter().map(|&logit| below(logit).exp()).collect();
         let normaliser: f64 = exponentials.iter().sum();
-        sum -= weight * (f64::from(logits[label as usize] - largest) - normaliser.ln());
+        sum -= weight * (below(logits[label as usize]) - normaliser.ln());
         let out = &mut gradient.values_mut()[row * classes..][..classes];
         for (class, (out, exponential)) in out.iter_mut().zip(exponentials).enumerate() {
             let target = f64::from(u8::from(class == label as usize));

@@ -1,13 +1,20 @@
 //! Numbers that are learned.
 
-use crate::Error;
 use crate::graph::{Graph, ParameterId, Role};
 use crate::random::Random;
+use crate::{Error, identity};
 
 /// The values of a graph's parameters, in its order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Parameters {
+    version: u64,
     values: Vec<Vec<f32>>,
+}
+
+impl PartialEq for Parameters {
+    fn eq(&self, other: &Self) -> bool {
+        self.values == other.values
+    }
 }
 
 impl Parameters {
@@ -24,7 +31,7 @@ impl Parameters {
             Role::Scale | Role::Variance => vec![1.0; spec.len()],
             Role::Bias | Role::Shift | Role::Mean => vec![0.0; spec.len()],
         });
-        Self { values: values.collect() }
+        Self { version: identity::fresh(), values: values.collect() }
     }
 
     /// Of values in the graph's order.
@@ -49,7 +56,13 @@ impl Parameters {
                 return Err(Error::input(&spec.name, "a negative variance"));
             }
         }
-        Ok(Self { values })
+        Ok(Self { version: identity::fresh(), values })
+    }
+
+    /// Changes whenever a value may have: of two parameters with the same number the values are the
+    /// same, so that an executor need not copy them to its device again.
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// One parameter.
@@ -59,6 +72,7 @@ impl Parameters {
 
     /// One parameter, to be changed.
     pub fn get_mut(&mut self, id: ParameterId) -> &mut [f32] {
+        self.version = identity::fresh();
         &mut self.values[id.0]
     }
 
@@ -69,6 +83,7 @@ impl Parameters {
 
     /// All, to be changed.
     pub(crate) fn values_mut(&mut self) -> &mut [Vec<f32>] {
+        self.version = identity::fresh();
         &mut self.values
     }
 

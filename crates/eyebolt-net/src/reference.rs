@@ -8,77 +8,84 @@ mod real;
 
 pub use real::Real;
 
-use crate::executor::{Executor, Forward, Gradients, check_gradients};
+use crate::executor::{
+    Executor, Forward, Gradients, OutputGradients, PassOptions, check, check_output_gradients,
+    check_outputs, check_training,
+};
 use crate::graph::Graph;
 use crate::{Batch, Error, Matrix, Parameters};
-
-/// All values of a pass, in the graph's order.
-#[derive(Clone, Debug)]
-struct Pass<T> {
-    values: Vec<Matrix<T>>,
-    seed: u64,
-}
+use std::marker::PhantomData;
 
 /// The plain executor, in precision `T`.
-#[derive(Clone, Debug, Default)]
-pub struct Reference<T> {
-    last: Option<Pass<T>>,
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reference<T>(PhantomData<T>);
+
+/// A graph on a batch with values of its own for parameters and inputs, in precision `T`.
+#[derive(Clone, Copy, Debug)]
+pub struct Case<'a, T> {
+    /// The network.
+    pub graph: &'a Graph,
+    /// In the graph's order.
+    pub parameters: &'a [Vec<T>],
+    /// Whose rows and maps are used.
+    pub batch: &'a Batch,
+    /// In place of those of the batch, of the same shapes.
+    pub inputs: &'a [Matrix<T>],
+}
+
+impl<T: Real> Case<'_, T> {
+    fn check(&self) -> Result<(), Error> {
+        let lengths = self.graph.parameters().iter().map(|spec| spec.len());
+        if !self.batch.is_for(self.graph) || !self.parameters.iter().map(Vec::len).eq(lengths) {
+            return Err(Error::input("batch or parameters", "made for another network"));
+        }
+        let shape = |matrix: &Matrix<T>| (matrix.rows(), matrix.channels());
+        let expected = self.batch.inputs().iter().map(|m| (m.rows(), m.channels()));
+        if !self.inputs.iter().map(shape).eq(expected) {
+            return Err(Error::input("inputs", "not of the shapes of those of the batch"));
+        }
+        Ok(())
+    }
+
+    fn outputs(&self, values: &[Matrix<T>]) -> Vec<Matrix<T>> {
+        self.graph.outputs().iter().map(|output| values[output.0].clone()).collect()
+    }
 }
 
 impl<T: Real> Reference<T> {
-    /// Nothing kept yet.
+    /// Of this precision.
     pub fn new() -> Self {
-        Self { last: None }
+        Self(PhantomData)
     }
 
-    /// [`Executor::forward`] with parameters of this precision.
+    /// [`Executor::infer`] in this precision.
     ///
     /// # Errors
     /// As there.
-    pub fn forward_with(
-        &mut self,
-        graph: &Graph,
-        parameters: &[Vec<T>],
-        batch: &Batch,
-        inputs: &[Matrix<T>],
+    pub fn infer_with(&self, case: Case<'_, T>) -> Result<Vec<Matrix<T>>, Error> {
+        case.check()?;
+        let (values, _) = forward::forward(case, None)?;
+        Ok(case.outputs(&values))
+    }
+
+    /// [`Executor::forward_backward`] in this precision, always with gradients of the inputs.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn forward_backward_with(
+        &self,
+        case: Case<'_, T>,
         seed: u64,
-    ) -> Result<Forward<T>, Error> {
-        let (values, running) = forward::forward(graph, parameters, batch, inputs, Some(seed))?;
-        let outputs = graph.outputs().iter().map(|output| values[output.0].clone()).collect();
-        self.last = Some(Pass { values, seed });
-        Ok(Forward { outputs, running })
-    }
-
-    /// [`Executor::infer`] with parameters of this precision.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn infer_with(
-        &self,
-        graph: &Graph,
-        parameters: &[Vec<T>],
-        batch: &Batch,
-        inputs: &[Matrix<T>],
-    ) -> Result<Vec<Matrix<T>>, Error> {
-        let (values, _) = forward::forward(graph, parameters, batch, inputs, None)?;
-        Ok(graph.outputs().iter().map(|output| values[output.0].clone()).collect())
-    }
-
-    /// [`Executor::backward`] with parameters of this precision.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn backward_with(
-        &self,
-        graph: &Graph,
-        parameters: &[Vec<T>],
-        batch: &Batch,
-        output_gradients: &[Matrix<T>],
-    ) -> Result<Gradients<T>, Error> {
-        check_gradients(graph, batch, output_gradients)?;
-        let last = self.last.as_ref().filter(|last| last.values.len() == graph.nodes().len());
-        let last = last.ok_or_else(|| Error::input("backward", "no forward pass went before"))?;
-        backward::backward(graph, parameters, batch, last, output_gradients)
+        output_gradients: OutputGradients<'_, T>,
+    ) -> Result<(Forward<T>, Gradients<T>), Error> {
+        case.check()?;
+        check_training(case.graph, case.batch)?;
+        let (values, running) = forward::forward(case, Some(seed))?;
+        let outputs = case.outputs(&values);
+        let of = output_gradients(&outputs)?;
+        check_output_gradients(case.graph, case.batch, &of)?;
+        let gradients = backward::backward(case, &values, seed, &of)?;
+        Ok((Forward { outputs, running }, gradients))
     }
 }
 
@@ -87,8 +94,12 @@ fn converted<T: Real>(parameters: &Parameters) -> Vec<Vec<T>> {
     parameters.values().iter().map(convert).collect()
 }
 
-fn inputs_of<T: Real>(batch: &Batch) -> Vec<Matrix<T>> {
-    batch.inputs().iter().map(|matrix| matrix.map(T::from_f32)).collect()
+fn widened<T: Real>(matrices: &[Matrix]) -> Vec<Matrix<T>> {
+    matrices.iter().map(|matrix| matrix.map(T::from_f32)).collect()
+}
+
+fn narrowed<T: Real>(matrices: &[Matrix<T>]) -> Vec<Matrix> {
+    matrices.iter().map(|matrix| matrix.map(T::to_f32)).collect()
 }
 
 fn rounded<T: Real>(values: Vec<T>) -> Vec<f32> {
@@ -106,42 +117,35 @@ impl<T: Real> Executor for Reference<T> {
         parameters: &Parameters,
         batch: &Batch,
     ) -> Result<Vec<Matrix>, Error> {
-        batch.check(graph, parameters)?;
-        let outputs = self.infer_with(graph, &converted(parameters), batch, &inputs_of(batch))?;
-        Ok(outputs.iter().map(|output| output.map(T::to_f32)).collect())
+        check(graph, parameters, batch)?;
+        let (parameters, inputs) = (converted(parameters), widened(batch.inputs()));
+        let case = Case { graph, parameters: &parameters, batch, inputs: &inputs };
+        let outputs = narrowed::<T>(&self.infer_with(case)?);
+        check_outputs(&outputs)?;
+        Ok(outputs)
     }
 
-    fn forward(
+    fn forward_backward(
         &mut self,
         graph: &Graph,
         parameters: &Parameters,
         batch: &Batch,
-        seed: u64,
-    ) -> Result<Forward, Error> {
-        batch.check(graph, parameters)?;
-        let inputs = inputs_of(batch);
-        let pass = self.forward_with(graph, &converted(parameters), batch, &inputs, seed)?;
-        Ok(Forward {
-            outputs: pass.outputs.iter().map(|output| output.map(T::to_f32)).collect(),
-            running: pass.running.into_iter().map(|(id, values)| (id, rounded(values))).collect(),
-        })
-    }
-
-    fn backward(
-        &mut self,
-        graph: &Graph,
-        parameters: &Parameters,
-        batch: &Batch,
-        output_gradients: &[Matrix],
-        with_inputs: bool,
-    ) -> Result<Gradients, Error> {
-        batch.check(graph, parameters)?;
-        let gradients: Vec<_> = output_gradients.iter().map(|g| g.map(T::from_f32)).collect();
-        let found = self.backward_with(graph, &converted(parameters), batch, &gradients)?;
-        let inputs = found.inputs.iter().filter(|_| with_inputs);
-        Ok(Gradients {
-            parameters: found.parameters.into_iter().map(rounded).collect(),
-            inputs: inputs.map(|gradient| gradient.map(T::to_f32)).collect(),
-        })
+        options: PassOptions,
+        output_gradients: OutputGradients<'_>,
+    ) -> Result<(Forward, Gradients), Error> {
+        check(graph, parameters, batch)?;
+        let (parameters, inputs) = (converted(parameters), widened(batch.inputs()));
+        let case = Case { graph, parameters: &parameters, batch, inputs: &inputs };
+        let mut of = |outputs: &[Matrix<T>]| {
+            let outputs = narrowed(outputs);
+            check_outputs(&outputs)?;
+            Ok(widened(&output_gradients(&outputs)?))
+        };
+        let (forward, found) = self.forward_backward_with(case, options.seed, &mut of)?;
+        let running = forward.running.into_iter().map(|(id, values)| (id, rounded(values)));
+        let forward = Forward { outputs: narrowed(&forward.outputs), running: running.collect() };
+        let inputs = if options.with_inputs { narrowed(&found.inputs) } else { Vec::new() };
+        let parameters = found.parameters.into_iter().map(rounded).collect();
+        Ok((forward, Gradients { parameters, inputs }))
     }
 }

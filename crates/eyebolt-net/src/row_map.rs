@@ -17,7 +17,7 @@ impl RowMap {
     ///
     /// # Panics
     /// If starts do not ascend from 0 to the number of entries, or a row is not below `inputs`.
-    pub fn new(inputs: usize, starts: Vec<u32>, rows: Vec<u32>, weights: Vec<f32>) -> Self {
+    pub(crate) fn new(inputs: usize, starts: Vec<u32>, rows: Vec<u32>, weights: Vec<f32>) -> Self {
         assert_eq!(rows.len(), weights.len(), "a weight for each row");
         assert!(starts.is_sorted() && starts.first() == Some(&0), "starts ascend from zero");
         assert_eq!(starts.last().map(|&end| end as usize), Some(rows.len()), "the last end");
@@ -26,14 +26,14 @@ impl RowMap {
     }
 
     /// Each output is one input row.
-    pub fn gather(inputs: usize, rows: Vec<u32>) -> Self {
+    pub(crate) fn gather(inputs: usize, rows: Vec<u32>) -> Self {
         let starts = (0..=rows.len() as u32).collect();
         let weights = vec![1.0; rows.len()];
         Self::new(inputs, starts, rows, weights)
     }
 
     /// Each output is the mean of a run.
-    pub fn means(runs: &Runs) -> Self {
+    pub(crate) fn means(runs: &Runs) -> Self {
         let rows = (0..runs.inputs() as u32).collect();
         let weights = runs.iter().flat_map(|run| {
             let share = 1.0 / run.len().max(1) as f32;
@@ -55,9 +55,14 @@ impl RowMap {
 
     /// Input rows and their weights in the sum of an output.
     pub fn entries(&self, output: usize) -> impl Iterator<Item = (usize, f32)> {
+        let (rows, weights) = self.lists(output);
+        rows.iter().map(|&row| row as usize).zip(weights.iter().copied())
+    }
+
+    /// The same as two lists.
+    pub(crate) fn lists(&self, output: usize) -> (&[u32], &[f32]) {
         let range = self.starts[output] as usize..self.starts[output + 1] as usize;
-        let rows = self.rows[range.clone()].iter().map(|&row| row as usize);
-        rows.zip(self.weights[range].iter().copied())
+        (&self.rows[range.clone()], &self.weights[range])
     }
 
     /// The transposed matrix, which leads gradients back.
@@ -97,7 +102,7 @@ impl Runs {
     ///
     /// # Panics
     /// If they do not ascend from zero.
-    pub fn new(starts: Vec<u32>) -> Self {
+    pub(crate) fn new(starts: Vec<u32>) -> Self {
         let ascends = starts.windows(2).all(|pair| pair[0] < pair[1]);
         assert!(ascends && starts.first() == Some(&0), "runs ascend from zero and are not empty");
         Self { starts }

@@ -120,7 +120,7 @@ pub fn ball_query(
 }
 
 /// For each target the three nearest sources and their weights, by inverse squared distance and
-/// with sum 1; of fewer sources, those that there are, some of them again.
+/// with sum 1; of fewer sources, those that there are, the others with weight 0.
 ///
 /// # Panics
 /// If there are no sources.
@@ -136,7 +136,9 @@ pub fn three_nearest(sources: &[[f32; 3]], targets: &[[f32; 3]]) -> Vec<([u32; 3
         .map_init(Vec::new, |distances, &target| {
             axes.distances(target, distances);
             let found = nearest::<3>(distances);
-            let weights = found.map(|at| 1.0 / (distances[at as usize] + SMALLEST));
+            let mut weights = found.map(|at| 1.0 / (distances[at as usize] + SMALLEST));
+            // What was not found is the first source, a second time.
+            weights.iter_mut().skip(sources.len()).for_each(|weight| *weight = 0.0);
             let sum: f32 = weights.iter().sum();
             (found, weights.map(|weight| weight / sum))
         })

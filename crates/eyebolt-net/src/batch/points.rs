@@ -1,6 +1,6 @@
 //! Batches of points, sampled level after level.
 
-use super::{Batch, Map};
+use super::{Batch, Map, features_for};
 use crate::graph::{Domain, Graph, MapSpec, Source};
 use crate::random::Random;
 use crate::row_map::{RowMap, Runs};
@@ -18,6 +18,9 @@ pub enum Sampling {
     /// level other ones.
     Uniform(u64),
 }
+
+/// The largest coordinate: squares of distances stay within 32 bits.
+const FARTHEST: f32 = 1e9;
 
 /// Points that are there at a level, item after item.
 struct Level {
@@ -77,16 +80,12 @@ impl Batch {
         let maps = graph.maps().iter().map(|&spec| map(graph, &levels, &groups, spec));
         let maps = maps.collect::<Result<_, Error>>()?;
         let inputs = graph.inputs().map(|(_, node, source)| match source {
-            Source::Features if node.channels == features.channels() => Ok(features.clone()),
-            Source::Features => Err(Error::input(
-                "features",
-                format!("{} channels; the network takes {}", features.channels(), node.channels),
-            )),
+            Source::Features => features_for(graph, node, Domain::Points, features),
             Source::Offsets { level, scale } => offsets(graph, &levels, &groups, level, scale),
             Source::Positions { level } => positions(at(&levels, level)?),
         });
         let inputs = inputs.collect::<Result<_, Error>>()?;
-        Ok(Self { rows, maps, inputs })
+        Ok(Self::new(graph, rows, maps, inputs))
     }
 }
 
@@ -106,8 +105,14 @@ fn levels(
         return Err(Error::input("points", problem));
     }
     features.check_finite("features")?;
-    Matrix::new(points.len(), 3, points.iter().flatten().copied().collect())?
-        .check_finite("points")?;
+    let good = |point: &[f32; 3]| point.iter().all(|value| value.abs() <= FARTHEST);
+    if let Some(row) = points.iter().position(|point| !good(point)) {
+        let problem = format!(
+            "row {row} is {:?}: not finite, or beyond {FARTHEST}; drop such points",
+            points[row]
+        );
+        return Err(Error::input("points", problem));
+    }
     let mut starts = vec![0];
     item_sizes.iter().for_each(|size| starts.push(starts[starts.len() - 1] + size));
     let mut levels = vec![Level { points: points.to_vec(), starts }];
@@ -192,8 +197,8 @@ fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Resul
         Ok::<_, Error>(Runs::new(starts.iter().map(|&start| start as u32).collect()))
     };
     Ok(match spec {
-        MapSpec::GlobalMax(domain) => Map::Runs(Arc::new(runs(domain)?)),
-        MapSpec::GlobalAverage(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
+        MapSpec::Maxima(domain) => Map::Runs(Arc::new(runs(domain)?)),
+        MapSpec::Means(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
         MapSpec::Group { level, scale } => {
             let inputs = at(levels, level - 1)?.points.len();
             Map::Rows(Arc::new(RowMap::gather(inputs, groups[&(level, scale)].clone())))

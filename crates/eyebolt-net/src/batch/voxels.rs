@@ -1,6 +1,6 @@
 //! Batches of voxels.
 
-use super::{Batch, Map};
+use super::{Batch, Map, features_for};
 use crate::coordinates::{Neighbours, VoxelSet, average_features};
 use crate::graph::{Domain, Graph, MapSpec, Source};
 use crate::row_map::{RowMap, Runs};
@@ -19,16 +19,16 @@ impl Batch {
         coordinates: &[[i32; 4]],
         features: &Matrix,
     ) -> Result<Self, Error> {
-        features.check_finite("features")?;
         let (finest, voxel_of_point) = VoxelSet::new(coordinates)?;
         let means = average_features(features, &voxel_of_point, finest.len())?;
         Self::from_neighbours(graph, &mut Neighbours::new(finest), means, voxel_of_point)
     }
 
-    /// The same from voxels and maps that are there already, `features` of the finest voxels.
+    /// The same from voxels and maps that are there already: `features` of the finest voxels, one
+    /// row each, and the voxel of every point, as [`VoxelSet::new`] gives them.
     ///
     /// # Errors
-    /// As [`Batch::from_voxels`].
+    /// As [`Batch::from_voxels`]; or if there is not one row for every voxel, or a point is of none.
     pub fn from_neighbours(
         graph: &Graph,
         neighbours: &mut Neighbours,
@@ -36,6 +36,16 @@ impl Batch {
         voxel_of_point: Vec<u32>,
     ) -> Result<Self, Error> {
         let finest = neighbours.voxels(1)?;
+        features.check_finite("features")?;
+        if features.rows() != finest.len() {
+            let problem = format!("{} rows for {} voxels", features.rows(), finest.len());
+            return Err(Error::input("features", problem));
+        }
+        if let Some(at) = voxel_of_point.iter().position(|&voxel| voxel as usize >= finest.len()) {
+            let problem =
+                format!("point {at} is in voxel {} of {}", voxel_of_point[at], finest.len());
+            return Err(Error::input("voxel_of_point", problem));
+        }
         let points = voxel_of_point.len();
         let slice = Arc::new(RowMap::gather(finest.len(), voxel_of_point));
         let items = finest.item_starts().len() - 1;
@@ -51,11 +61,11 @@ impl Batch {
             maps.push(match spec {
                 MapSpec::Kernel(spec) => Map::Kernel(neighbours.map(spec)?),
                 MapSpec::Slice => Map::Rows(slice.clone()),
-                MapSpec::GlobalMax(Domain::Voxels { stride }) => {
+                MapSpec::Maxima(Domain::Voxels { stride }) => {
                     let voxels = neighbours.voxels(stride)?;
                     Map::Runs(Arc::new(runs(&voxels)?))
                 }
-                MapSpec::GlobalAverage(Domain::Voxels { stride }) => {
+                MapSpec::Means(Domain::Voxels { stride }) => {
                     let voxels = neighbours.voxels(stride)?;
                     Map::Rows(Arc::new(RowMap::means(&runs(&voxels)?)))
                 }
@@ -63,17 +73,13 @@ impl Batch {
             });
         }
         let sources = graph.inputs().map(|(_, node, source)| match source {
-            Source::Features if node.channels == features.channels() => Ok(features.clone()),
-            Source::Features => Err(Error::input(
-                "features",
-                format!("{} channels; the network takes {}", features.channels(), node.channels),
-            )),
+            Source::Features => features_for(graph, node, Domain::Voxels { stride: 1 }, &features),
             Source::Offsets { .. } | Source::Positions { .. } => {
                 Err(Error::network("graph", "takes places of points; use Batch::from_points"))
             }
         });
         let inputs = sources.collect::<Result<_, Error>>()?;
-        Ok(Self { rows, maps, inputs })
+        Ok(Self::new(graph, rows, maps, inputs))
     }
 }
 

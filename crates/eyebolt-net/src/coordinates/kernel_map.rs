@@ -87,6 +87,17 @@ impl KernelMap {
         &self.blocks
     }
 
+    /// Input and output rows that meet at an offset of the kernel, each output at most once: the map
+    /// without its blocks.
+    pub fn pairs_at(&self, offset: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.blocks.iter().enumerate().flat_map(move |(index, block)| {
+            let (input, output) = block.pairs(offset);
+            let first = index * BLOCK_ROWS;
+            let outputs = output.iter().map(move |&output| first + usize::from(output));
+            input.iter().map(|&input| input as usize).zip(outputs)
+        })
+    }
+
     /// Number of pairs, of all offsets.
     pub fn pairs(&self) -> usize {
         self.blocks.iter().map(|block| block.input.len()).sum()

@@ -36,12 +36,11 @@ impl VoxelSet {
         if coordinates.len() > i32::MAX as usize {
             return Err(Error::input("coordinates", "more than 2^31; split the cloud"));
         }
-        let keys: Result<Vec<_>, Error> = coordinates
-            .par_iter()
-            .enumerate()
-            .map(|(row, &coordinate)| key(row, coordinate))
-            .collect();
-        Ok(Self::from_keys(1, COORDINATE_LIMIT as u32, keys?))
+        let key = |(row, &coordinate): (usize, &[i32; 4])| key(row, coordinate);
+        let keys: Result<Vec<_>, Error> = coordinates.par_iter().enumerate().map(key).collect();
+        // Threads fail in no order: the error is that of the first row.
+        let keys = keys.or_else(|_| coordinates.iter().enumerate().map(key).collect())?;
+        Ok(Self::from_keys(1, COORDINATE_LIMIT as u32, keys))
     }
 
     /// Of item, code and row; the voxel of each row comes second.
@@ -73,7 +72,7 @@ impl VoxelSet {
     }
 
     /// The voxels `factor` times as large that hold these, and which of them holds each.
-    pub fn coarser(&self, factor: u32) -> (Self, Vec<u32>) {
+    pub(super) fn coarser(&self, factor: u32) -> (Self, Vec<u32>) {
         let same_order = factor.is_power_of_two() && self.origin.is_multiple_of(factor);
         let origin = if same_order { self.origin / factor } else { self.origin };
         let keys = self.voxels().enumerate().map(|(row, (item, code))| {

@@ -43,25 +43,23 @@ pub fn average_features(
 ) -> Result<Matrix, Error> {
     check_rows("features", features.rows(), voxel_of_point, voxels)?;
     let channels = features.channels();
-    let mut means = Matrix::zeros(voxels, channels);
+    // A voxel may hold millions of points, whose sum 32 bits would not follow.
+    let mut sums = vec![0.0_f64; voxels * channels];
     let mut counts = vec![0_u32; voxels];
     for (row, &voxel) in voxel_of_point.iter().enumerate() {
         let voxel = voxel as usize;
         counts[voxel] += 1;
-        let sums = &mut means.values_mut()[voxel * channels..][..channels];
-        for (sum, value) in sums.iter_mut().zip(features.row(row)) {
-            *sum += value;
+        let sums = &mut sums[voxel * channels..][..channels];
+        for (sum, &value) in sums.iter_mut().zip(features.row(row)) {
+            *sum += f64::from(value);
         }
     }
-    if channels > 0 {
-        for (sums, &count) in means.values_mut().chunks_exact_mut(channels).zip(&counts) {
-            // A voxel of a single point keeps its features to the bit.
-            if count > 1 {
-                sums.iter_mut().for_each(|sum| *sum /= count as f32);
-            }
-        }
+    if let Some(voxel) = counts.iter().position(|&count| count == 0) {
+        return Err(Error::input("voxel_of_point", format!("no point is in voxel {voxel}")));
     }
-    Ok(means)
+    let shares = counts.iter().flat_map(|&count| std::iter::repeat_n(f64::from(count), channels));
+    let means = sums.iter().zip(shares).map(|(sum, count)| (sum / count) as f32).collect();
+    Matrix::new(voxels, channels, means)
 }
 
 /// The label that most points of each voxel have, the smallest where several have as many;

@@ -3,69 +3,70 @@
 use super::buffers::Buffers;
 use super::convolve::{Epilogue, Pairs, convolve};
 use super::panels::Panels;
+use super::task::Task;
 use super::train::Kept;
 use super::weight_gradient::weight_gradient;
 use super::{elementwise, norm, pool};
 use crate::executor::Gradients;
-use crate::graph::{BatchNorm, Graph, Node, NodeId, Op};
-use crate::simd::{Isa, Rows};
-use crate::{Batch, Error, Matrix, Parameters};
+use crate::graph::{MapId, Node, NodeId, Op, ParameterId};
+use crate::simd::Rows;
+use crate::{Error, Matrix};
 
-/// What does not change during the pass.
-pub struct Task<'a> {
-    pub isa: Isa,
-    pub graph: &'a Graph,
-    pub parameters: &'a Parameters,
-    pub batch: &'a Batch,
-    pub with_inputs: bool,
-}
-
-/// What does.
-struct State<'a> {
+/// A pass on its way.
+struct Pass<'a> {
+    task: &'a Task<'a>,
     buffers: &'a mut Buffers,
     kept: Kept,
+    /// Whether a node's gradient is of use.
+    needed: Vec<bool>,
     of: Vec<Option<Vec<f32>>>,
     of_parameters: Vec<Vec<f32>>,
 }
 
+/// Gradients of parameters, and if `with_inputs` of the graph's inputs.
 pub fn backward(
     task: &Task<'_>,
     buffers: &mut Buffers,
     kept: Kept,
     output_gradients: &[Matrix],
+    with_inputs: bool,
 ) -> Result<Gradients, Error> {
+    let nodes = task.graph.nodes();
     let specs = task.graph.parameters().iter();
-    let of_parameters = specs.map(|spec| vec![0.0; spec.len()]).collect();
-    let of = vec![None; task.graph.nodes().len()];
-    let mut state = State { buffers, kept, of, of_parameters };
+    let mut pass = Pass {
+        task,
+        buffers,
+        kept,
+        needed: needed(nodes, with_inputs),
+        of: vec![None; nodes.len()],
+        of_parameters: specs.map(|spec| vec![0.0; spec.len()]).collect(),
+    };
     for (&output, gradient) in task.graph.outputs().iter().zip(output_gradients) {
-        let mut copy = state.buffers.take(gradient.values().len());
-        copy.copy_from_slice(gradient.values());
-        state.add(output, copy);
+        let copy = pass.copy(gradient.values())?;
+        pass.add(output, copy);
     }
-    let needed = needed(task);
-    for (index, node) in task.graph.nodes().iter().enumerate().rev() {
-        if matches!(node.op, Op::Input(_)) || !needed[index] {
+    for (index, node) in nodes.iter().enumerate().rev() {
+        if matches!(node.op, Op::Input(_)) || !pass.needed[index] {
             continue;
         }
-        if let Some(gradient) = state.of[index].take() {
-            state.step(task, index, node, gradient, &needed)?;
+        if let Some(gradient) = pass.of[index].take() {
+            pass.step(index, node, gradient)?;
         }
-        state.release(index, node);
+        pass.release(index);
     }
-    let inputs = if task.with_inputs { state.inputs(task)? } else { Vec::new() };
-    let State { buffers, kept, of_parameters, of } = state;
+    let inputs = if with_inputs { pass.inputs()? } else { Vec::new() };
+    let Pass { buffers, kept, of_parameters, of, .. } = pass;
     of.into_iter().flatten().for_each(|gradient| buffers.give(gradient));
     kept.give_back(buffers);
     Ok(Gradients { parameters: of_parameters, inputs })
 }
 
-/// Whether a node's gradient is of use: it has parameters, or something before it has.
-fn needed(task: &Task<'_>) -> Vec<bool> {
+/// Whether each node's gradient is of use: it has parameters, or something before it has.
+fn needed(nodes: &[Node], with_inputs: bool) -> Vec<bool> {
     let mut needed: Vec<bool> = Vec::new();
-    for node in task.graph.nodes() {
+    for node in nodes {
         let own = match node.op {
-            Op::Input(_) => task.with_inputs,
+            Op::Input(_) => with_inputs,
             Op::Convolution { .. } | Op::BatchNorm(_) => true,
             _ => false,
         };
@@ -75,7 +76,7 @@ fn needed(task: &Task<'_>) -> Vec<bool> {
     needed
 }
 
-impl State<'_> {
+impl Pass<'_> {
     /// Adds to the gradient of a node.
     fn add(&mut self, node: NodeId, gradient: Vec<f32>) {
         match &mut self.of[node.0] {
@@ -87,117 +88,73 @@ impl State<'_> {
         }
     }
 
+    fn copy(&mut self, values: &[f32]) -> Result<Vec<f32>, Error> {
+        let mut copy = self.buffers.take(values.len())?;
+        copy.copy_from_slice(values);
+        Ok(copy)
+    }
+
     /// Once a node is done nothing earlier needs its value.
-    fn release(&mut self, index: usize, node: &Node) {
-        if self.kept.holder[index] == index && !matches!(node.op, Op::Input(_)) {
+    fn release(&mut self, index: usize) {
+        if self.kept.holder[index] == index {
             let value = std::mem::take(&mut self.kept.values[index]);
             self.buffers.give(value);
         }
     }
 
-    fn inputs(&mut self, task: &Task<'_>) -> Result<Vec<Matrix>, Error> {
-        let gradients = task.graph.inputs().map(|(id, node, _)| {
-            let rows = task.batch.rows[node.domain];
-            let values = self.of[id.0].take().unwrap_or_else(|| vec![0.0; rows * node.channels]);
-            Matrix::new(rows, node.channels, values)
-        });
-        gradients.collect()
+    fn inputs(&mut self) -> Result<Vec<Matrix>, Error> {
+        let inputs: Vec<NodeId> = self.task.graph.inputs().map(|(id, ..)| id).collect();
+        let gradient = |id: NodeId| {
+            let node = self.task.node(id);
+            let none = || vec![0.0; self.task.rows(node) * node.channels];
+            self.task.matrix(id, self.of[id.0].take().unwrap_or_else(none))
+        };
+        inputs.into_iter().map(gradient).collect()
     }
 
-    fn step(
-        &mut self,
-        task: &Task<'_>,
-        index: usize,
-        node: &Node,
-        mut gradient: Vec<f32>,
-        needed: &[bool],
-    ) -> Result<(), Error> {
+    /// From the gradient of a node's value to those of its inputs and parameters.
+    fn step(&mut self, index: usize, node: &Node, mut gradient: Vec<f32>) -> Result<(), Error> {
         let first = node.inputs[0];
-        let width = task.graph.nodes()[first.0].channels;
-        let rows = task.batch.rows[task.graph.nodes()[first.0].domain];
-        match &node.op {
+        match node.op {
             Op::Input(_) => {}
             Op::Convolution { map, weight, bias } => {
-                let map = map.map(|map| task.batch.kernel(map)).transpose()?;
-                if let Some(bias) = bias {
-                    let (sums, _) = column_sums(&gradient, node.channels);
-                    self.of_parameters[bias.0] = sums;
-                }
-                let pairs = map.map_or(Pairs::Same(rows), Pairs::Map);
-                weight_gradient(
-                    task.isa,
-                    pairs,
-                    Rows { values: self.kept.value(first), width },
-                    Rows { values: &gradient, width: node.channels },
-                    &mut self.of_parameters[weight.0],
-                );
-                if needed[first.0] {
-                    let (back, mirrored) = match map.map(|map| map.adjoint()) {
-                        Some((map, mirrored)) => (Pairs::Map(map), mirrored),
-                        None => (Pairs::Same(rows), false),
-                    };
-                    let len = Panels::len(back.volume(), node.channels, width);
-                    let mut packed = self.buffers.take(len);
-                    let weights = task.parameters.get(*weight);
-                    let panels = Panels::pack_transposed(
-                        &mut packed,
-                        weights,
-                        node.channels,
-                        width,
-                        mirrored,
-                    );
-                    let mut out = self.buffers.take(rows * width);
-                    convolve(task.isa, back, &gradient, &panels, Epilogue::default(), &mut out);
-                    self.buffers.give(packed);
-                    self.add(first, out);
-                }
+                self.convolution(node, map, weight, bias, &gradient)?;
                 self.buffers.give(gradient);
             }
-            Op::BatchNorm(norm) => {
-                self.batch_norm(task, index, norm, first, &mut gradient);
+            Op::BatchNorm(op) => {
+                let moments = self.kept.moments[index].take().expect("forward keeps them");
+                let (scale, input) = (self.task.parameters.get(op.scale), self.kept.value(first));
+                let (of_scale, of_shift) = norm::backward(scale, &moments, input, &mut gradient);
+                self.of_parameters[op.scale.0] = of_scale;
+                self.of_parameters[op.shift.0] = of_shift;
                 self.add(first, gradient);
             }
             Op::Activation { slope } => {
-                elementwise::activate_backward(
-                    &mut gradient,
-                    self.kept.value(NodeId(index)),
-                    *slope,
-                );
+                let output = self.kept.value(NodeId(index));
+                elementwise::activate_backward(&mut gradient, output, slope);
                 self.add(first, gradient);
             }
             Op::Add => {
-                let mut copy = self.buffers.take(gradient.len());
-                copy.copy_from_slice(&gradient);
+                let copy = self.copy(&gradient)?;
                 self.add(first, copy);
                 self.add(node.inputs[1], gradient);
             }
-            Op::Concatenate => {
-                let mut start = 0;
-                for &part in &node.inputs {
-                    let width = task.graph.nodes()[part.0].channels;
-                    if needed[part.0] {
-                        let mut out = self.buffers.take(rows * width);
-                        elementwise::columns(&gradient, node.channels, start, width, &mut out);
-                        self.add(part, out);
-                    }
-                    start += width;
-                }
-                self.buffers.give(gradient);
-            }
+            Op::Concatenate => self.concatenate(node, gradient)?,
             Op::Dropout { probability } => {
-                elementwise::dropout(&mut gradient, self.kept.seed, index, *probability);
+                elementwise::dropout(&mut gradient, self.kept.seed, index, probability);
                 self.add(first, gradient);
             }
             Op::Combine { map } => {
-                let mut out = self.buffers.take(rows * width);
-                pool::combine(task.batch.row_map(*map)?.adjoint(), &gradient, width, &mut out);
+                let adjoint = self.task.batch.row_map(map)?.adjoint();
+                let mut out = self.like(first)?;
+                pool::combine(adjoint, &gradient, node.channels, &mut out);
                 self.add(first, out);
                 self.buffers.give(gradient);
             }
             Op::MaxPool { map } => {
-                let mut out = self.buffers.take(rows * width);
+                let (runs, mut out) = (self.task.batch.runs(map)?, self.like(first)?);
                 let input = self.kept.value(first);
-                pool::max_pool_backward(task.batch.runs(*map)?, input, width, &gradient, &mut out);
+                pool::max_pool_backward(runs, input, node.channels, &gradient, &mut out);
                 self.add(first, out);
                 self.buffers.give(gradient);
             }
@@ -205,35 +162,62 @@ impl State<'_> {
         Ok(())
     }
 
-    fn batch_norm(
-        &mut self,
-        task: &Task<'_>,
-        index: usize,
-        op: &BatchNorm,
-        first: NodeId,
-        gradient: &mut [f32],
-    ) {
-        let moments = self.kept.moments[index].take().expect("forward keeps them");
-        let input = self.kept.value(first);
-        let (of_shift, of_scale) =
-            norm::gradient_sums(gradient, input, &moments.mean, &moments.inverse);
-        let count = (gradient.len() / moments.mean.len().max(1)) as f32;
-        let scale = task.parameters.get(op.scale);
-        let factor: Vec<f32> = scale.iter().zip(&moments.inverse).map(|(a, b)| a * b).collect();
-        let a: Vec<f32> = of_shift.iter().map(|sum| sum / count).collect();
-        let b: Vec<f32> = of_scale
-            .iter()
-            .zip(&moments.inverse)
-            .map(|(sum, inverse)| sum / count * inverse)
-            .collect();
-        norm::backward(gradient, input, &moments.mean, &factor, &a, &b);
-        self.of_parameters[op.shift.0] = of_shift;
-        self.of_parameters[op.scale.0] = of_scale;
+    /// A buffer as large as a node's value.
+    fn like(&mut self, id: NodeId) -> Result<Vec<f32>, Error> {
+        let node = self.task.node(id);
+        self.buffers.take(self.task.rows(node) * node.channels)
     }
-}
 
-/// Sums over all rows.
-fn column_sums(values: &[f32], channels: usize) -> (Vec<f32>, Vec<f32>) {
-    let zeros = vec![0.0; channels];
-    norm::gradient_sums(values, values, &zeros, &zeros)
+    fn concatenate(&mut self, node: &Node, gradient: Vec<f32>) -> Result<(), Error> {
+        let mut start = 0;
+        for &part in &node.inputs {
+            let width = self.task.node(part).channels;
+            if self.needed[part.0] {
+                let mut out = self.like(part)?;
+                elementwise::columns(&gradient, node.channels, start, width, &mut out);
+                self.add(part, out);
+            }
+            start += width;
+        }
+        self.buffers.give(gradient);
+        Ok(())
+    }
+
+    fn convolution(
+        &mut self,
+        node: &Node,
+        map: Option<MapId>,
+        weight: ParameterId,
+        bias: Option<ParameterId>,
+        gradient: &[f32],
+    ) -> Result<(), Error> {
+        let (task, first, channels) = (self.task, node.inputs[0], node.channels);
+        let (width, rows) = (task.node(first).channels, task.rows(task.node(first)));
+        let map = map.map(|map| task.batch.kernel(map)).transpose()?;
+        if let Some(bias) = bias {
+            self.of_parameters[bias.0] = norm::column_sums(gradient, channels);
+        }
+        weight_gradient(
+            task.isa,
+            map.map_or(Pairs::Same(rows), Pairs::Map),
+            Rows { values: self.kept.value(first), width },
+            Rows { values: gradient, width: channels },
+            &mut self.of_parameters[weight.0],
+        );
+        if !self.needed[first.0] {
+            return Ok(());
+        }
+        let (back, mirrored) = match map.map(|map| map.adjoint()) {
+            Some((map, mirrored)) => (Pairs::Map(map), mirrored),
+            None => (Pairs::Same(rows), false),
+        };
+        let mut packed = self.buffers.take(Panels::len(back.volume(), channels, width))?;
+        let weights = task.parameters.get(weight);
+        let panels = Panels::pack_transposed(&mut packed, weights, channels, width, mirrored);
+        let mut out = self.buffers.take(rows * width)?;
+        convolve(task.isa, back, gradient, &panels, Epilogue::default(), &mut out);
+        self.buffers.give(packed);
+        self.add(first, out);
+        Ok(())
+    }
 }

@@ -43,14 +43,8 @@ pub fn add_to(sum: &mut [f32], other: &[f32]) {
     });
 }
 
-/// `scale * x + shift` channel by channel, then an activation.
-pub fn scale_shift(
-    input: &[f32],
-    scale: &[f32],
-    shift: &[f32],
-    slope: Option<f32>,
-    out: &mut [f32],
-) {
+/// `scale * x + shift` channel by channel.
+pub fn scale_shift(input: &[f32], scale: &[f32], shift: &[f32], out: &mut [f32]) {
     let channels = scale.len();
     if channels == 0 {
         return;
@@ -60,11 +54,6 @@ pub fn scale_shift(
         for (out, input) in out.chunks_exact_mut(channels).zip(input.chunks_exact(channels)) {
             for c in 0..channels {
                 out[c] = input[c] * scale[c] + shift[c];
-            }
-            if let Some(slope) = slope {
-                for value in out {
-                    *value = if *value > 0.0 { *value } else { *value * slope };
-                }
             }
         }
     });

@@ -1,21 +1,62 @@
 //! Batch norm in training.
 
+use super::elementwise;
+use crate::Parameters;
+use crate::graph::{BatchNorm, ParameterId};
 use rayon::prelude::*;
 
 /// Rows of a task: with the widest channels they stay in the second-level cache.
 const ROWS: usize = 256;
 
+/// Mean and inverse deviation of a batch norm's channels.
+pub struct Moments {
+    pub mean: Vec<f32>,
+    pub inverse: Vec<f32>,
+}
+
+/// Normalises by the moments of the batch, which are also blended into the running ones.
+pub fn forward(
+    op: &BatchNorm,
+    parameters: &Parameters,
+    input: &[f32],
+    out: &mut [f32],
+    running: &mut Vec<(ParameterId, Vec<f32>)>,
+) -> Moments {
+    let (scale, shift) = (parameters.get(op.scale), parameters.get(op.shift));
+    let channels = scale.len();
+    let rows = (input.len() / channels.max(1)) as f64;
+    let (mean, variance) = moments(input, channels);
+    let inverse = |&value: &f64| (1.0 / (value + f64::from(op.epsilon)).sqrt()) as f32;
+    let inverse: Vec<f32> = variance.iter().map(inverse).collect();
+    let scale: Vec<f32> = scale.iter().zip(&inverse).map(|(a, b)| a * b).collect();
+    let shift: Vec<f32> = (0..channels)
+        .map(|c| (f64::from(shift[c]) - mean[c] * f64::from(scale[c])) as f32)
+        .collect();
+    elementwise::scale_shift(input, &scale, &shift, out);
+    let blend = |old: ParameterId, new: &[f64], correction: f64| {
+        let share = f64::from(op.momentum);
+        let pairs = parameters.get(old).iter().zip(new);
+        let blend = |(&old, &new): (&f32, &f64)| {
+            (f64::from(old) * (1.0 - share) + new * correction * share) as f32
+        };
+        (old, pairs.map(blend).collect())
+    };
+    running.push(blend(op.mean, &mean, 1.0));
+    running.push(blend(op.variance, &variance, rows / (rows - 1.0)));
+    Moments { mean: mean.into_iter().map(|value| value as f32).collect(), inverse }
+}
+
 /// Mean and biased variance of every channel: of chunks first, which are then merged in order
 /// (Chan, Golub and LeVeque, *Updating formulae and a pairwise algorithm for computing sample
 /// variances*, 1979).
-pub fn moments(values: &[f32], channels: usize) -> (Vec<f64>, Vec<f64>) {
+fn moments(values: &[f32], channels: usize) -> (Vec<f64>, Vec<f64>) {
     let chunks: Vec<(usize, Vec<f64>, Vec<f64>)> = values
         .par_chunks(ROWS * channels.max(1))
         .map(|chunk| {
             let rows = chunk.len() / channels.max(1);
-            let mut mean = column_sums(chunk, channels, |_, value| value);
+            let mut mean = chunk_sums(chunk, channels, |_, value| value);
             mean.iter_mut().for_each(|sum| *sum /= rows as f32);
-            let spread = column_sums(chunk, channels, |c, value| {
+            let spread = chunk_sums(chunk, channels, |c, value| {
                 let difference = value - mean[c];
                 difference * difference
             });
@@ -38,7 +79,7 @@ pub fn moments(values: &[f32], channels: usize) -> (Vec<f64>, Vec<f64>) {
     (mean, spread)
 }
 
-fn column_sums(chunk: &[f32], channels: usize, of: impl Fn(usize, f32) -> f32) -> Vec<f32> {
+fn chunk_sums(chunk: &[f32], channels: usize, of: impl Fn(usize, f32) -> f32) -> Vec<f32> {
     let mut sums = vec![0.0; channels];
     for row in chunk.chunks_exact(channels.max(1)) {
         for c in 0..channels {
@@ -48,8 +89,14 @@ fn column_sums(chunk: &[f32], channels: usize, of: impl Fn(usize, f32) -> f32) -
     sums
 }
 
+/// Sums over all rows.
+pub fn column_sums(values: &[f32], channels: usize) -> Vec<f32> {
+    let zeros = vec![0.0; channels];
+    gradient_sums(values, values, &zeros, &zeros).0
+}
+
 /// Sums over all rows of the gradient, and of the gradient times the normalised input.
-pub fn gradient_sums(
+fn gradient_sums(
     gradient: &[f32],
     input: &[f32],
     mean: &[f32],
@@ -83,15 +130,21 @@ pub fn gradient_sums(
     (narrow(plain), narrow(weighted))
 }
 
-/// The gradient of the input, in place of that of the output: `factor (g - a - (x - mean) b)`.
+/// The gradient of the input, in place of that of the output; those of scale and shift are
+/// returned.
 pub fn backward(
-    gradient: &mut [f32],
+    scale: &[f32],
+    moments: &Moments,
     input: &[f32],
-    mean: &[f32],
-    factor: &[f32],
-    a: &[f32],
-    b: &[f32],
-) {
+    gradient: &mut [f32],
+) -> (Vec<f32>, Vec<f32>) {
+    let Moments { mean, inverse } = moments;
+    let (of_shift, of_scale) = gradient_sums(gradient, input, mean, inverse);
+    let count = (gradient.len() / mean.len().max(1)) as f32;
+    let factor: Vec<f32> = scale.iter().zip(inverse).map(|(a, b)| a * b).collect();
+    let a: Vec<f32> = of_shift.iter().map(|sum| sum / count).collect();
+    let sums = of_scale.iter().zip(inverse);
+    let b: Vec<f32> = sums.map(|(sum, inverse)| sum / count * inverse).collect();
     let channels = mean.len();
     let chunk = ROWS * channels.max(1);
     gradient.par_chunks_mut(chunk).zip(input.par_chunks(chunk)).for_each(|(gradient, input)| {
@@ -102,4 +155,5 @@ pub fn backward(
             }
         }
     });
+    (of_scale, of_shift)
 }

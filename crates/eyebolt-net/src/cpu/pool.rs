@@ -5,6 +5,8 @@ use rayon::prelude::*;
 
 /// Rows of a task.
 const ROWS: usize = 256;
+/// Rows that are summed in 32 bits: of more, as a mean over a whole cloud has, rounding would show.
+const RUN: usize = 128;
 
 /// Weighted sums of rows.
 pub fn combine(map: &RowMap, input: &[f32], channels: usize, out: &mut [f32]) {
@@ -13,14 +15,41 @@ pub fn combine(map: &RowMap, input: &[f32], channels: usize, out: &mut [f32]) {
     }
     out.par_chunks_mut(ROWS * channels).enumerate().for_each(|(chunk, out)| {
         for (row, out) in out.chunks_exact_mut(channels).enumerate() {
-            out.fill(0.0);
-            for (from, weight) in map.entries(chunk * ROWS + row) {
-                for (out, &value) in out.iter_mut().zip(&input[from * channels..][..channels]) {
-                    *out += weight * value;
-                }
+            let (rows, weights) = map.lists(chunk * ROWS + row);
+            if rows.len() <= RUN {
+                sum(rows, weights, input, out);
+            } else {
+                sum_of_runs(rows, weights, input, out);
             }
         }
     });
+}
+
+/// A weighted sum of rows.
+fn sum(rows: &[u32], weights: &[f32], input: &[f32], out: &mut [f32]) {
+    let channels = out.len();
+    out.fill(0.0);
+    for (&row, weight) in rows.iter().zip(weights) {
+        for (out, &value) in out.iter_mut().zip(&input[row as usize * channels..][..channels]) {
+            *out += weight * value;
+        }
+    }
+}
+
+/// A weighted sum of many rows: of runs on all cores, which are added in order in 64 bits.
+fn sum_of_runs(rows: &[u32], weights: &[f32], input: &[f32], out: &mut [f32]) {
+    let channels = out.len();
+    let runs = rows.par_chunks(RUN).zip(weights.par_chunks(RUN));
+    let sums: Vec<Vec<f32>> = runs
+        .map(|(rows, weights)| {
+            let mut part = vec![0.0; channels];
+            sum(rows, weights, input, &mut part);
+            part
+        })
+        .collect();
+    for (c, out) in out.iter_mut().enumerate() {
+        *out = sums.iter().map(|part| f64::from(part[c])).sum::<f64>() as f32;
+    }
 }
 
 /// Largest of each run.

@@ -44,9 +44,9 @@ pub enum MapSpec {
     /// From the finest voxels to the points in them.
     Slice,
     /// From the rows of each item to their maximum.
-    GlobalMax(Domain),
+    Maxima(Domain),
     /// From the rows of each item to their mean.
-    GlobalAverage(Domain),
+    Means(Domain),
     /// From samples of the level below to the neighbours of each sample.
     Group {
         /// Level of the samples.

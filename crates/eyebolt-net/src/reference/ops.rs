@@ -2,7 +2,7 @@
 
 use super::Real;
 use crate::Matrix;
-use crate::coordinates::{BLOCK_ROWS, KernelMap};
+use crate::coordinates::KernelMap;
 
 /// Offset, input row and output row of every pair; without a map each row with itself.
 pub fn for_each_pair(
@@ -13,13 +13,8 @@ pub fn for_each_pair(
     let Some(map) = map else {
         return (0..rows).for_each(|row| visit(0, row, row));
     };
-    for (index, block) in map.blocks().iter().enumerate() {
-        for offset in 0..map.volume() {
-            let (input, output) = block.pairs(offset);
-            for (&input, &output) in input.iter().zip(output) {
-                visit(offset, input as usize, index * BLOCK_ROWS + usize::from(output));
-            }
-        }
+    for offset in 0..map.volume() {
+        map.pairs_at(offset).for_each(|(input, output)| visit(offset, input, output));
     }
 }
 

@@ -55,6 +55,9 @@ impl Trainer {
             toml::from_str(&text).map_err(|error| Error::file(FILE, STATE, error.to_string()))?;
         let seed = state.seed.parse();
         let seed = seed.map_err(|_| Error::file(FILE, "seed", "not a number of 64 bits"))?;
+        let by_field = |error| Error::file(FILE, STATE, format!("{error}"));
+        state.rule.check().map_err(by_field)?;
+        state.schedule.check().map_err(by_field)?;
         let parameters = tensors.take_all(graph, "", Entry::plain)?;
         let first = tensors.take_all(graph, "first.", Entry::plain)?;
         let second = match state.rule {
@@ -62,6 +65,12 @@ impl Trainer {
             Rule::Sgd { .. } => Vec::new(),
         };
         tensors.finish()?;
+        for (spec, values) in graph.parameters().iter().zip(&second) {
+            if let Some(at) = values.iter().position(|&value| value < 0.0) {
+                let problem = format!("value {at} is {}, and it is a mean of squares", values[at]);
+                return Err(Error::file(FILE, format!("second.{}", spec.name), problem));
+            }
+        }
         Ok(Self {
             parameters: crate::Parameters::new(graph, parameters)?,
             optimiser: Optimiser { rule: state.rule, updates: state.updates, first, second },

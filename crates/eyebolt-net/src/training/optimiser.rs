@@ -1,6 +1,6 @@
 //! From gradients to steps.
 
-use crate::{Graph, Parameters};
+use crate::{Error, Graph, Parameters};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +31,41 @@ pub enum Rule {
 }
 
 impl Rule {
+    /// That steps by it can lead anywhere.
+    ///
+    /// # Errors
+    /// If a constant is out of bounds.
+    pub fn check(self) -> Result<(), Error> {
+        let share = |name: &str, value: f32| match (0.0..1.0).contains(&value) {
+            true => Ok(()),
+            false => {
+                let problem = format!("{value} is not from 0 up to but not including 1");
+                Err(Error::input(name, problem))
+            }
+        };
+        let (epsilon, decay) = match self {
+            Self::Adam { beta1, beta2, epsilon, weight_decay, .. } => {
+                share("beta1", beta1)?;
+                share("beta2", beta2)?;
+                (epsilon, weight_decay)
+            }
+            Self::Sgd { momentum, weight_decay } => {
+                share("momentum", momentum)?;
+                (1.0, weight_decay)
+            }
+        };
+        if !(epsilon.is_finite() && epsilon > 0.0) {
+            return Err(Error::input("epsilon", format!("{epsilon} is not positive")));
+        }
+        if !(decay.is_finite() && decay >= 0.0) {
+            return Err(Error::input(
+                "weight_decay",
+                format!("{decay} is negative or not a number"),
+            ));
+        }
+        Ok(())
+    }
+
     /// Adam with its usual constants and decay as part of the gradient.
     pub fn adam(weight_decay: f32) -> Self {
         Self::Adam { beta1: 0.9, beta2: 0.999, epsilon: 1e-8, weight_decay, decoupled: false }
@@ -75,6 +110,10 @@ impl Optimiser {
         gradients: &[Vec<f32>],
         rate: f64,
     ) {
+        let lengths = |list: &[Vec<f32>]| list.iter().map(Vec::len).collect::<Vec<_>>();
+        let own = lengths(&self.first);
+        assert_eq!(lengths(gradients), own, "a gradient for each value");
+        assert_eq!(lengths(parameters.values()), own, "the parameters that it began with");
         self.updates += 1;
         let (rule, updates) = (self.rule, self.updates);
         let mut nothing: Vec<Vec<f32>> = vec![Vec::new(); gradients.len()];

@@ -1,5 +1,6 @@
 //! How large steps are.
 
+use crate::Error;
 use serde::{Deserialize, Serialize};
 
 /// The learning rate over the steps.
@@ -33,6 +34,24 @@ pub enum Schedule {
 }
 
 impl Schedule {
+    /// That every rate is a number.
+    ///
+    /// # Errors
+    /// If the rate or its factor is negative or not finite.
+    pub fn check(self) -> Result<(), Error> {
+        let (rate, factor) = match self {
+            Self::Constant { rate } | Self::Cosine { rate, .. } => (rate, 1.0),
+            Self::Steps { rate, factor, .. } => (rate, factor),
+        };
+        for (name, value) in [("rate", rate), ("factor", factor)] {
+            if !(value.is_finite() && value >= 0.0) {
+                let problem = format!("{value} is negative or not a number");
+                return Err(Error::input(name, problem));
+            }
+        }
+        Ok(())
+    }
+
     /// The rate of a step, counted from 0.
     pub fn rate(self, step: u64) -> f64 {
         match self {

@@ -1,10 +1,11 @@
 //! Inputs that are empty, odd or too much: a right answer or an error that says what and where.
 
+use crate::runs::{executors, forward_backward};
 use crate::scenes::{every_operation, features, parameters};
-use eyebolt_net::coordinates::KernelSpec;
-use eyebolt_net::graph::{Domain, SampleLevel, Source};
+use eyebolt_net::coordinates::{KernelSpec, Neighbours, VoxelSet};
+use eyebolt_net::graph::{Domain, GraphBuilder, NodeId, SampleLevel, Source};
 use eyebolt_net::models::{MinkEncoder, MinkUNet, PointNet2, Task};
-use eyebolt_net::{Batch, Cpu, Error, Executor, Graph, GraphBuilder, Matrix, Parameters, Sampling};
+use eyebolt_net::{Batch, Cpu, Error, Executor, Graph, Matrix, Parameters, PassOptions, Sampling};
 
 fn refusal(result: Result<Batch, Error>) -> String {
     result.unwrap_err().to_string()
@@ -38,33 +39,52 @@ fn clouds_that_cannot_be_used() {
     assert!(points(&[[0.0; 3]], &[2], &Matrix::zeros(1, 3)).contains("not as many"));
     assert!(points(&[[0.0; 3]], &[usize::MAX, 2], &Matrix::zeros(1, 3)).contains("not as many"));
     assert!(points(&[[f32::NAN; 3]], &[1], &Matrix::zeros(1, 3)).contains("points: row 0"));
+    assert!(points(&[[-2e9; 3]], &[1], &Matrix::zeros(1, 3)).contains("beyond 1000000000"));
     assert!(points(&[[0.0; 3]], &[1], &Matrix::zeros(1, 2)).contains("takes 3"));
 }
 
 fn assert_finite(graph: &Graph, parameters: &Parameters, batch: &Batch) {
-    let mut cpu = Cpu::new();
-    let inferred = cpu.infer(graph, parameters, batch).unwrap();
-    let forward = cpu.forward(graph, parameters, batch, 0).unwrap();
-    let found = cpu.backward(graph, parameters, batch, &forward.outputs, true).unwrap();
-    let matrices = inferred.iter().chain(&forward.outputs).chain(&found.inputs);
     let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
-    assert!(matrices.map(Matrix::values).all(finite));
-    assert!(found.parameters.iter().all(|values| finite(values)));
+    for mut executor in executors() {
+        let inferred = executor.infer(graph, parameters, batch).unwrap();
+        assert!(inferred.iter().map(Matrix::values).all(finite));
+        let case = (graph, parameters, batch);
+        let (forward, found) = forward_backward(&mut *executor, case, 0, <[_]>::to_vec);
+        let matrices = forward.outputs.iter().chain(&found.inputs);
+        assert!(matrices.map(Matrix::values).all(finite));
+        assert!(found.parameters.iter().all(|values| finite(values)));
+    }
+}
+
+/// Inference gives finite values, training says what a batch norm needs.
+fn assert_only_inferred(graph: &Graph, parameters: &Parameters, batch: &Batch) {
+    for mut executor in executors() {
+        let inferred = executor.infer(graph, parameters, batch).unwrap();
+        assert!(inferred.iter().flat_map(Matrix::values).all(|value| value.is_finite()));
+        let mut of = |outputs: &[Matrix]| Ok(outputs.to_vec());
+        let options = PassOptions::default();
+        let trained = executor.forward_backward(graph, parameters, batch, options, &mut of);
+        let error = trained.unwrap_err().to_string();
+        assert!(error.contains("a batch norm in training needs two or more"), "{error}");
+    }
 }
 
 #[test]
 fn a_single_point() {
     let graph = every_operation();
     let batch = Batch::from_voxels(&graph, &[[0, -5, 0, 9]], &features(1, 1, 3)).unwrap();
-    assert_finite(&graph, &parameters(&graph, 2), &batch);
+    assert_only_inferred(&graph, &parameters(&graph, 2), &batch);
     // Without features, too: where points are is then all that is known of them.
     for inputs in [3, 0] {
-        for net in [PointNet2::single_scale, PointNet2::multi_scale_classification] {
-            let graph = net(inputs, 2).graph().unwrap();
-            let (points, features) = ([[0.1; 3]], features(1, 1, inputs));
-            let batch = Batch::from_points(&graph, &points, &[1], &features, Sampling::Farthest);
-            assert_finite(&graph, &Parameters::initial(&graph, 0), &batch.unwrap());
-        }
+        let net = PointNet2::multi_scale_classification(inputs, 2);
+        let graph = net.graph().unwrap();
+        let parameters = Parameters::initial(&graph, 0);
+        let batch = |points: &[[f32; 3]]| {
+            let (items, features) = (vec![1; points.len()], features(1, points.len(), inputs));
+            Batch::from_points(&graph, points, &items, &features, Sampling::Farthest).unwrap()
+        };
+        assert_only_inferred(&graph, &parameters, &batch(&[[0.1; 3]]));
+        assert_finite(&graph, &parameters, &batch(&[[0.1; 3], [0.2; 3]]));
     }
 }
 
@@ -82,7 +102,7 @@ fn corners_of_space() {
 
 #[test]
 fn many_points() {
-    // Ten million points in a million voxels.
+    // Ten million points in five million voxels.
     let mut net = MinkUNet::named("minkunet14a", 1, 2).unwrap();
     net.stem_channels = 1;
     net.stem_kernel = 1;
@@ -105,7 +125,8 @@ fn no_channels() {
     let none = g.linear("none", some, 0, true);
     let none = g.batch_norm("norm", none);
     let graph = g.finish(&[some, none]).unwrap();
-    let batch = Batch::from_voxels(&graph, &[[0, 1, 2, 3]; 2], &Matrix::zeros(2, 0)).unwrap();
+    let batch =
+        Batch::from_voxels(&graph, &[[0, 1, 2, 3], [0, 1, 2, 4]], &Matrix::zeros(2, 0)).unwrap();
     assert_finite(&graph, &Parameters::initial(&graph, 0), &batch);
 }
 
@@ -175,4 +196,88 @@ fn operations_that_do_not_fit() {
     // Places of points are not known of voxels.
     let graph = g.finish(&[samples]).unwrap();
     assert!(Batch::from_voxels(&graph, &[[0, 1, 2, 3]], &Matrix::zeros(1, 3)).is_err());
+}
+
+#[test]
+fn voxels_that_are_none_of_the_set() {
+    let graph = every_operation();
+    let (finest, _) = VoxelSet::new(&[[0, 1, 2, 3], [1, 0, 0, 0]]).unwrap();
+    let with = |features: Matrix, voxel_of_point: Vec<u32>| {
+        let mut neighbours = Neighbours::new(finest.clone());
+        refusal(Batch::from_neighbours(&graph, &mut neighbours, features, voxel_of_point))
+    };
+    let outside = with(Matrix::zeros(2, 3), vec![0, 7]);
+    assert_eq!(outside, "voxel_of_point: point 1 is in voxel 7 of 2");
+    assert_eq!(with(Matrix::zeros(3, 3), vec![0, 1]), "features: 3 rows for 2 voxels");
+    let infinite = Matrix::new(2, 3, vec![f32::INFINITY; 6]).unwrap();
+    assert!(with(infinite, vec![0, 1]).contains("row 0, channel 0 is inf"));
+}
+
+#[test]
+fn features_of_other_rows_than_the_graph_takes() {
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Points, 1);
+    let graph = g.finish(&[x]).unwrap();
+    let error = refusal(Batch::from_voxels(&graph, &[[0; 4]], &Matrix::zeros(1, 1)));
+    assert!(error.contains("takes features on Points"), "{error}");
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 1);
+    let graph = g.finish(&[x]).unwrap();
+    let (points, one) = ([[0.0; 3]], Matrix::zeros(1, 1));
+    let error = Batch::from_points(&graph, &points, &[1], &one, Sampling::Farthest);
+    assert!(refusal(error).contains("from_voxels"));
+}
+
+#[test]
+fn values_too_large_for_32_bits_are_no_answer() {
+    let graph = every_operation();
+    let cells = [[0, 0, 0, 0], [0, 1, 0, 0], [0, 9, 9, 9], [0, 20, 0, 9]];
+    let large = Matrix::new(4, 3, (0..12).map(|i| 3e38 - 5e37 * i as f32).collect()).unwrap();
+    let batch = Batch::from_voxels(&graph, &cells, &large).unwrap();
+    for mut executor in executors() {
+        // What has 64 bits may have an answer.
+        if let Err(error) = executor.infer(&graph, &parameters(&graph, 2), &batch) {
+            assert!(error.to_string().contains("too large"), "{error}");
+        } else {
+            assert!(executor.device().starts_with("reference"));
+        }
+    }
+}
+
+#[test]
+fn memory_has_a_limit() {
+    let graph = every_operation();
+    let parameters = parameters(&graph, 2);
+    let cells = crate::scenes::sheet(20);
+    let batch = Batch::from_voxels(&graph, &cells, &features(1, cells.len(), 3)).unwrap();
+    let mut roomy = Cpu::new().with_memory_limit(64 << 20);
+    assert!(roomy.infer(&graph, &parameters, &batch).is_ok());
+    let mut narrow = Cpu::new().with_memory_limit(64 << 10);
+    let error = narrow.infer(&graph, &parameters, &batch).unwrap_err().to_string();
+    assert!(error.starts_with("batch: more than 0 MiB of memory"), "{error}");
+    let mut of = |outputs: &[Matrix]| Ok(outputs.to_vec());
+    let options = PassOptions::default();
+    assert!(narrow.forward_backward(&graph, &parameters, &batch, options, &mut of).is_err());
+    // Nothing is lost by that.
+    let mut again = narrow.with_memory_limit(64 << 20);
+    let expected = roomy.infer(&graph, &parameters, &batch).unwrap();
+    assert_eq!(again.infer(&graph, &parameters, &batch).unwrap(), expected);
+}
+
+#[test]
+fn graphs_that_are_none() {
+    let finish = |build: &dyn Fn(&mut GraphBuilder, NodeId) -> Vec<NodeId>| {
+        let mut g = GraphBuilder::new();
+        let x = g.input(Source::Features, Domain::Points, 3);
+        let outputs = build(&mut g, x);
+        g.finish(&outputs).unwrap_err().to_string()
+    };
+    assert!(finish(&|_, _| vec![]).contains("outputs: there are none"));
+    let twice = finish(&|g, x| vec![g.linear("a", x, 2, true), g.linear("a", x, 2, true)]);
+    assert!(twice.contains("a.weight: the name of two parameters"), "{twice}");
+    assert!(finish(&|g, x| vec![g.dropout(x, 1.0)]).contains("dropout 1"));
+    assert!(finish(&|g, x| vec![g.dropout(x, f32::NAN)]).contains("dropout NaN"));
+    assert!(finish(&|g, x| vec![g.leaky_relu(x, -0.5)]).contains("slope -0.5"));
+    let huge = finish(&|g, x| vec![g.linear("huge", x, usize::MAX, false)]);
+    assert!(huge.contains("huge.weight") && huge.contains("more than"), "{huge}");
 }

@@ -58,7 +58,20 @@ fn found(map: &KernelMap, from: &VoxelSet, to: &VoxelSet) -> BTreeSet<(usize, [i
             }
         }
     }
+    for offset in 0..map.volume() {
+        let outputs: Vec<usize> = map.pairs_at(offset).map(|(_, output)| output).collect();
+        assert_eq!(outputs.iter().collect::<BTreeSet<_>>().len(), outputs.len(), "an output twice");
+        assert!(map.pairs_at(offset).all(|(i, o)| pairs.contains(&(offset, from[i], to[o]))));
+    }
+    assert_eq!((0..map.volume()).flat_map(|o| map.pairs_at(o)).count(), pairs.len());
     pairs
+}
+
+/// The pairs of the adjoint map, turned back.
+fn back(map: &KernelMap, from: &VoxelSet, to: &VoxelSet) -> BTreeSet<(usize, [i32; 4], [i32; 4])> {
+    let (adjoint, mirrored) = map.adjoint();
+    let turn = |(o, i, u)| (if mirrored { map.volume() - 1 - o } else { o }, u, i);
+    found(adjoint, to, from).into_iter().map(turn).collect()
 }
 
 proptest! {
@@ -81,12 +94,7 @@ proptest! {
         let map = neighbours.map(spec).unwrap();
         let (a, b) = (neighbours.voxels(from).unwrap(), neighbours.voxels(to).unwrap());
         prop_assert_eq!(found(&map, &a, &b), expected(&cells, spec));
-        let (adjoint, mirrored) = map.adjoint();
-        let back: BTreeSet<_> = found(adjoint, &b, &a)
-            .into_iter()
-            .map(|(o, i, u)| (if mirrored { map.volume() - 1 - o } else { o }, u, i))
-            .collect();
-        prop_assert_eq!(back, found(&map, &a, &b));
+        prop_assert_eq!(back(&map, &a, &b), found(&map, &a, &b));
     }
 
     #[test]
@@ -125,10 +133,44 @@ proptest! {
 }
 
 #[test]
+fn maps_of_many_blocks() {
+    // A thick wavy layer: thousands of voxels at stride 2 still.
+    let cells: Vec<[i32; 4]> = (0..120 * 120)
+        .map(|i| [i % 2, i % 120 - 60, i / 120 - 60, (i * i % 7) - 3 + i % 120 / 9])
+        .collect();
+    for (size, dilation, from, to) in [
+        (3, 1, 1, 1),
+        (5, 1, 1, 1),
+        (2, 1, 1, 1),
+        (3, 2, 1, 1),
+        (3, 1, 2, 2),
+        (2, 1, 1, 2),
+        (2, 1, 2, 1),
+        (3, 1, 1, 2),
+        (3, 1, 2, 1),
+        (3, 1, 1, 3),
+    ] {
+        let (finest, _) = VoxelSet::new(&cells).unwrap();
+        let mut neighbours = Neighbours::new(finest);
+        let spec = KernelSpec { kernel: Kernel { size, dilation }, from, to };
+        let map = neighbours.map(spec).unwrap();
+        let (a, b) = (neighbours.voxels(from).unwrap(), neighbours.voxels(to).unwrap());
+        assert!(map.blocks().len() > 2, "{spec:?} is of one block or two");
+        let all = found(&map, &a, &b);
+        assert!(all == expected(&cells, spec), "{spec:?}");
+        assert!(back(&map, &a, &b) == all, "back from {spec:?}");
+    }
+}
+
+#[test]
 fn features_are_averaged() {
     let features = Matrix::new(4, 2, vec![1.0, 2.0, 3.0, 4.0, 5.0, 9.0, 7.0, 8.0]).unwrap();
     let means = average_features(&features, &[1, 0, 1, 1], 2).unwrap();
     assert_eq!(means.values(), [3.0, 4.0, 13.0 / 3.0, 19.0 / 3.0]);
+    let error = average_features(&features, &[1, 0, 1, 1], 3).unwrap_err().to_string();
+    assert_eq!(error, "voxel_of_point: no point is in voxel 2");
+    let large = Matrix::new(2, 1, vec![3e38; 2]).unwrap();
+    assert_eq!(average_features(&large, &[0, 0], 1).unwrap().values(), [3e38]);
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! A small MinkUNet learns to tell three shapes from each other and from noise.
 
 use crate::fixtures::hashed;
+use crate::scenes::within;
+use eyebolt_net::graph::{Domain, GraphBuilder, MapSpec, Source};
 use eyebolt_net::losses::cross_entropy;
 use eyebolt_net::models::MinkUNet;
 use eyebolt_net::training::{Rule, Schedule, Trainer};
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
 use std::collections::BTreeMap;
 
 const STEPS: u64 = 300;
@@ -109,6 +111,61 @@ fn killed_and_resumed_it_ends_in_the_same_bytes() {
 }
 
 #[test]
+fn dropout_goes_on_as_it_would_have() {
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 1);
+    let x = g.convolution("first", x, within(3, 1, 1), 8, true).unwrap();
+    let x = g.dropout(x, 0.5);
+    let x = g.linear("logits", x, 4, true);
+    let x = g.combine("slice", x, MapSpec::Slice).unwrap();
+    let graph = g.finish(&[x]).unwrap();
+    let from = |seed| {
+        let weights = Parameters::initial(&graph, 3);
+        let schedule = Schedule::Constant { rate: 1e-2 };
+        Trainer::from_parameters(weights, Rule::adam(0.0), schedule, seed)
+    };
+    let (mut whole, mut other) = (from(7), from(8));
+    train(&graph, &mut whole, 2);
+    let mut resumed = Trainer::resume(&graph, &whole.checkpoint(&graph).unwrap()).unwrap();
+    for trainer in [&mut whole, &mut resumed, &mut other] {
+        train(&graph, trainer, 4);
+    }
+    assert_eq!(resumed.parameters(), whole.parameters());
+    assert_ne!(other.parameters(), whole.parameters(), "dropout does not follow the seed");
+}
+
+#[test]
+fn steps_that_would_spoil_a_network_change_nothing() {
+    let graph = network();
+    let (voxels, labels) = scene(0);
+    let features = |size: f32| Matrix::new(voxels.len(), 1, vec![size; voxels.len()]).unwrap();
+    let step = |trainer: &mut Trainer, size: f32| {
+        let batch = Batch::from_voxels(&graph, &voxels, &features(size)).unwrap();
+        let loss = |outputs: &[Matrix]| Ok(vec![cross_entropy(&outputs[0], &labels, 255, None)?]);
+        trainer.step(&mut Cpu::new(), &graph, &batch, loss)
+    };
+    let mut large = trainer(&graph);
+    let before = large.clone();
+    let error = step(&mut large, 1e20).unwrap_err().to_string();
+    assert!(error.contains("bn0.running_var would be inf"), "{error}");
+    assert_eq!(large, before);
+    for (rule, schedule, name) in [
+        (Rule::adam(0.0), Schedule::Constant { rate: f64::NAN }, "rate: NaN"),
+        (Rule::adam(-1.0), Schedule::Constant { rate: 0.1 }, "weight_decay: -1"),
+        (
+            Rule::Sgd { momentum: 1.0, weight_decay: 0.0 },
+            Schedule::Constant { rate: 0.1 },
+            "momentum: 1",
+        ),
+    ] {
+        let mut wrong = Trainer::new(&graph, rule, schedule, 1);
+        let error = step(&mut wrong, 1.0).unwrap_err().to_string();
+        assert!(error.contains(name), "{error}");
+        assert_eq!(wrong.step_count(), 0);
+    }
+}
+
+#[test]
 fn broken_checkpoints_are_refused() {
     let graph = network();
     let bytes = trainer(&graph).checkpoint(&graph).unwrap();
@@ -118,4 +175,22 @@ fn broken_checkpoints_are_refused() {
     let other = MinkUNet::named("minkunet14a", 2, 4).unwrap().graph().unwrap();
     let error = Trainer::resume(&other, &bytes).unwrap_err().to_string();
     assert!(error.contains("checkpoint: conv0p1s1.kernel: shape"), "{error}");
+}
+
+#[test]
+fn learning_goes_on_from_weights_and_with_another_schedule() {
+    let graph = network();
+    let mut first = trainer(&graph);
+    train(&graph, &mut first, 2);
+    let schedule = Schedule::Constant { rate: 1e-3 };
+    let weights = first.parameters().clone();
+    let mut tuned = Trainer::from_parameters(weights.clone(), Rule::adamw(1e-4), schedule, 5);
+    assert_eq!((tuned.parameters(), tuned.step_count()), (&weights, 0));
+    train(&graph, &mut tuned, 1);
+    assert_ne!(tuned.parameters(), &weights);
+    let mut slower = first.clone();
+    slower.set_schedule(schedule);
+    train(&graph, &mut slower, 3);
+    train(&graph, &mut first, 3);
+    assert_ne!(slower.parameters(), first.parameters());
 }

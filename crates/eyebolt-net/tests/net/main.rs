@@ -11,5 +11,6 @@ mod pytorch_minkunet;
 mod pytorch_operations;
 mod pytorch_points;
 mod pytorch_training;
+mod runs;
 mod scenes;
 mod weights;

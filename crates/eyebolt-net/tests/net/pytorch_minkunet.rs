@@ -1,9 +1,10 @@
-//! A whole MinkUNet18D, forward and backward, against plain PyTorch in 64 bits.
+//! A whole MinkUNet18D, forward and backward, against plain PyTorch in 64 bits, on every executor.
 
 use crate::fixtures::{Fixture, assert_close, hashed, hashed_matrix, parameters, reordered};
+use crate::runs::{executors, forward_backward};
 use eyebolt_net::coordinates::VoxelSet;
 use eyebolt_net::models::MinkUNet;
-use eyebolt_net::{Batch, Cpu, Executor};
+use eyebolt_net::{Batch, Gradients, Graph, Matrix};
 
 /// As `parameter` in the script.
 fn parameter(name: &str, shape: &[usize], values: Vec<f32>) -> Vec<f32> {
@@ -30,16 +31,24 @@ fn forward_and_backward() {
     let parameters = parameters(&graph, parameter);
     let batch = Batch::from_voxels(&graph, &cells, &hashed_matrix("features", cells.len(), 3));
     let batch = batch.unwrap();
-    let mut cpu = Cpu::new();
-    let inferred = cpu.infer(&graph, &parameters, &batch).unwrap();
-    assert_close("inferred", inferred[0].values(), fixture.floats("inferred"), 1e-5);
-    let forward = cpu.forward(&graph, &parameters, &batch, 0).unwrap();
-    assert_close("trained", forward.outputs[0].values(), fixture.floats("trained"), 1e-5);
-    let of = hashed_matrix("weigh", cells.len(), 3);
-    let gradients = cpu.backward(&graph, &parameters, &batch, &[of], true).unwrap();
     let finest = VoxelSet::new(&cells).unwrap().0.coordinates();
-    let of_features = reordered(&gradients.inputs[0], &finest, &cells);
-    assert_close("features", &of_features, fixture.floats("of.features"), 1e-5);
+    for mut executor in executors() {
+        let inferred = executor.infer(&graph, &parameters, &batch).unwrap();
+        assert_close("inferred", inferred[0].values(), fixture.floats("inferred"), 1e-5);
+        let case = (&graph, &parameters, &batch);
+        let of = |_: &[Matrix]| vec![hashed_matrix("weigh", cells.len(), 3)];
+        let (forward, gradients) = forward_backward(&mut *executor, case, 0, of);
+        assert_close("trained", forward.outputs[0].values(), fixture.floats("trained"), 1e-5);
+        let of_features = reordered(&gradients.inputs[0], &finest, &cells);
+        assert_close("features", &of_features, fixture.floats("of.features"), 1e-5);
+        let compared = assert_parameters(&graph, &gradients, &fixture);
+        // 49 convolutions, 48 batch norms of two each, one bias.
+        assert_eq!(compared, 49 + 2 * 48 + 1);
+    }
+}
+
+/// Length and projection of the gradient of every parameter; how many there are.
+fn assert_parameters(graph: &Graph, gradients: &Gradients, fixture: &Fixture) -> usize {
     let mut compared = 0;
     for (spec, values) in graph.parameters().iter().zip(&gradients.parameters) {
         if !spec.role.is_trained() {
@@ -54,6 +63,5 @@ fn forward_and_backward() {
         assert_close(&spec.name, &found, expected, 1e-5);
         compared += 1;
     }
-    // 49 convolutions, 48 batch norms of two each, one bias.
-    assert_eq!(compared, 49 + 2 * 48 + 1);
+    compared
 }

@@ -1,17 +1,13 @@
 //! Every operation, forward and backward, against plain PyTorch in 64 bits.
 
 use crate::fixtures::{Fixture, assert_close, hashed_matrix, parameters, reordered};
+use crate::runs::{executors, forward_backward};
 use crate::scenes::within;
 use eyebolt_net::coordinates::{KernelSpec, Neighbours, VoxelSet};
 use eyebolt_net::graph::{Domain, GraphBuilder, Source};
-use eyebolt_net::reference::Reference;
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix};
+use eyebolt_net::{Batch, Graph, Matrix};
 
 const TOLERANCE: f32 = 1e-5;
-
-fn executors() -> Vec<Box<dyn Executor>> {
-    vec![Box::new(Cpu::new()), Box::new(Reference::<f32>::new())]
-}
 
 /// The batch of a graph on the fixture's cells, and the finest voxels in its order.
 fn batch(graph: &Graph, cells: &[[i32; 4]], name: &str, channels: usize) -> (Batch, Vec<[i32; 4]>) {
@@ -52,11 +48,11 @@ fn convolution(
     let have = neighbours.voxels(spec.to).unwrap().coordinates();
     let rows = fixture.cells(&format!("{name}.rows"));
     for mut executor in executors() {
-        let forward = executor.forward(&graph, &parameters, &batch, 0).unwrap();
+        let case = (&graph, &parameters, &batch);
+        let of = |_: &[Matrix]| vec![weigh(name, &have, &rows, outputs)];
+        let (forward, found) = forward_backward(&mut *executor, case, 0, of);
         let output = reordered(&forward.outputs[0], &have, &rows);
         assert_close(name, &output, fixture.floats(&format!("{name}.output")), TOLERANCE);
-        let of = weigh(name, &have, &rows, outputs);
-        let found = executor.backward(&graph, &parameters, &batch, &[of], true).unwrap();
         let of_features = reordered(&found.inputs[0], &finest, &cells);
         let expected = |part: &str| fixture.floats(&format!("{name}.of.{part}"));
         assert_close(name, &of_features, expected("features"), TOLERANCE);
@@ -116,13 +112,13 @@ fn batch_norms() {
                 assert_close(name, &output, expected("output"), TOLERANCE);
                 continue;
             }
-            let forward = executor.forward(&graph, &parameters, &batch, 0).unwrap();
+            let case = (&graph, &parameters, &batch);
+            let of = |_: &[Matrix]| vec![weigh(name, &finest, &cells, 5)];
+            let (forward, found) = forward_backward(&mut *executor, case, 0, of);
             let output = reordered(&forward.outputs[0], &finest, &cells);
             assert_close(name, &output, expected("output"), TOLERANCE);
             assert_close("mean", &forward.running[0].1, expected("mean"), TOLERANCE);
             assert_close("variance", &forward.running[1].1, expected("variance"), TOLERANCE);
-            let of = weigh(name, &finest, &cells, 5);
-            let found = executor.backward(&graph, &parameters, &batch, &[of], true).unwrap();
             let of_features = reordered(&found.inputs[0], &finest, &cells);
             assert_close("features", &of_features, expected("of.features"), TOLERANCE);
             assert_close("weight", &found.parameters[0], expected("of.weight"), TOLERANCE);
@@ -146,13 +142,15 @@ fn pools_and_activations() {
     let parameters = parameters(&graph, |_, _, values| values);
     let (batch, finest) = batch(&graph, &cells, "rest", 6);
     for mut executor in executors() {
-        let forward = executor.forward(&graph, &parameters, &batch, 0).unwrap();
+        let case = (&graph, &parameters, &batch);
+        let of = |_: &[Matrix]| {
+            vec![hashed_matrix("rest.pooled.weigh", 2, 12), weigh("rest", &finest, &cells, 6)]
+        };
+        let (forward, found) = forward_backward(&mut *executor, case, 0, of);
         let pooled = forward.outputs[0].values();
         assert_close("pooled", pooled, fixture.floats("rest.pooled"), TOLERANCE);
         let sum = reordered(&forward.outputs[1], &finest, &cells);
         assert_close("sum", &sum, fixture.floats("rest.output"), TOLERANCE);
-        let of = [hashed_matrix("rest.pooled.weigh", 2, 12), weigh("rest", &finest, &cells, 6)];
-        let found = executor.backward(&graph, &parameters, &batch, &of, true).unwrap();
         let of_features = reordered(&found.inputs[0], &finest, &cells);
         assert_close("features", &of_features, fixture.floats("rest.of.features"), TOLERANCE);
     }
@@ -171,13 +169,15 @@ fn slices_linear_layers_and_dropout() {
     let parameters = parameters(&graph, |_, _, values| values);
     let (batch, finest) = batch(&graph, &points, "points", 6);
     for mut executor in executors() {
-        let forward = executor.forward(&graph, &parameters, &batch, 3).unwrap();
+        let case = (&graph, &parameters, &batch);
+        let of = |_: &[Matrix]| {
+            let of = |name| hashed_matrix(&format!("{name}.weigh"), points.len(), 5);
+            ["linear", "dropout"].map(of).to_vec()
+        };
+        let (forward, found) = forward_backward(&mut *executor, case, 3, of);
         for (output, name) in forward.outputs.iter().zip(["linear", "dropout"]) {
             assert_close(name, output.values(), fixture.floats(name), TOLERANCE);
         }
-        let of = ["linear", "dropout"]
-            .map(|name| hashed_matrix(&format!("{name}.weigh"), points.len(), 5));
-        let found = executor.backward(&graph, &parameters, &batch, &of, true).unwrap();
         let of_features = reordered(&found.inputs[0], &finest, &cells);
         let expected = |part: &str| fixture.floats(&format!("heads.of.{part}"));
         assert_close("features", &of_features, expected("features"), TOLERANCE);

@@ -74,3 +74,22 @@ fn losses_refuse_what_they_cannot_weigh() {
         refusal(pose_loss(PoseLoss::SamePoint, &zero, &zero, &[[1.0; 3]])).contains("no rotation")
     );
 }
+
+#[test]
+fn far_apart_logits_have_a_loss() {
+    let logits = Matrix::new(1, 2, vec![-3e38, 3e38]).unwrap();
+    let loss = cross_entropy(&logits, &[0], 255, None).unwrap();
+    assert!((loss.value / 6e38 - 1.0).abs() < 1e-6, "{}", loss.value);
+}
+
+#[test]
+#[should_panic(expected = "a gradient for each value")]
+fn gradients_of_another_network() {
+    let mut g = GraphBuilder::new();
+    let x = g.input(Source::Features, Domain::Points, 2);
+    let y = g.linear("layer", x, 3, true);
+    let graph = g.finish(&[y]).unwrap();
+    let mut parameters = Parameters::initial(&graph, 1);
+    let mut optimiser = Optimiser::new(Rule::adam(0.0), &parameters);
+    optimiser.update(&graph, &mut parameters, &[vec![0.0; 6]], 0.1);
+}

@@ -12,7 +12,7 @@ impl GraphBuilder {
     #[doc(alias = "MinkowskiGlobalAvgPooling")]
     #[doc(alias = "MinkowskiGlobalPooling")]
     pub fn global_average_pool(&mut self, name: &str, input: NodeId) -> Result<NodeId, Error> {
-        self.combine(name, input, MapSpec::GlobalAverage(self.domain_of(input)))
+        self.combine(name, input, MapSpec::Means(self.domain_of(input)))
     }
 
     /// Maximum of all rows of each item, channel by channel.
@@ -21,7 +21,7 @@ impl GraphBuilder {
     /// If `input` is of items already, or of neighbours.
     #[doc(alias = "MinkowskiGlobalMaxPooling")]
     pub fn global_max_pool(&mut self, name: &str, input: NodeId) -> Result<NodeId, Error> {
-        self.max_pool(name, input, MapSpec::GlobalMax(self.domain_of(input)))
+        self.max_pool(name, input, MapSpec::Maxima(self.domain_of(input)))
     }
 
     /// From voxels back to points: each point has the value of its voxel.
@@ -142,14 +142,14 @@ impl GraphBuilder {
 
 /// Whether a map is of runs of rows, rather than of weighted rows.
 fn has_runs(map: MapSpec) -> bool {
-    matches!(map, MapSpec::GlobalMax(_) | MapSpec::Neighbours { .. })
+    matches!(map, MapSpec::Maxima(_) | MapSpec::Neighbours { .. })
 }
 
 /// Where a map comes from and leads to.
 fn ends(name: &str, map: MapSpec) -> Result<(Domain, Domain), Error> {
     Ok(match map {
         MapSpec::Slice => (Domain::Voxels { stride: 1 }, Domain::Points),
-        MapSpec::GlobalMax(domain) | MapSpec::GlobalAverage(domain)
+        MapSpec::Maxima(domain) | MapSpec::Means(domain)
             if !matches!(domain, Domain::Items | Domain::Groups { .. }) =>
         {
             (domain, Domain::Items)

@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 /// # What a batch must have to train it
 ///
 /// Batch norm is over all rows of the batch, and the last ones are at stride 16: there must be more
-/// than one voxel of 16 finest an edge, in one item or in several. Of a single row it leaves the
-/// shift and nothing of the input, so nothing is learned, and the running statistics are spoiled.
-/// The more of them the better; a dozen small clouds at a time are usual.
+/// than one voxel of 16 finest an edge, in one item or in several. Of a single row it would leave
+/// nothing of the input, so an executor refuses that; of two, little more than a sign. The more of
+/// them the better: Sefercik and Akgun's code takes 32 clouds at a time.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MinkEncoder {
