@@ -2,13 +2,15 @@
 //!
 //! `minkunet_bench COORDS.npy FEATS.npy [--model minkunet18d] [--stem 5] [--train] [--threads 2]
 //! [--runs 3]`. Times are the shortest of all runs; `sgemm_gflop_per_s` is a plain product of
-//! matrices of 2048 by the `gemm` crate in the same run on the same threads.
+//! matrices of 2048 by the `gemm` crate in the same run on the same threads. `train_step_s` is forward
+//! and backward, as peers are timed; `update_s` is what AdamW adds to it.
 #![allow(clippy::print_stdout)]
 
 use eyebolt_net::coordinates::{Neighbours, VoxelSet, average_features};
 use eyebolt_net::graph::MapSpec;
 use eyebolt_net::models::MinkUNet;
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters, PassOptions};
+use eyebolt_net::training::{Optimiser, Rule};
+use eyebolt_net::{Batch, Cpu, Executor, Gradients, Graph, Matrix, Parameters, PassOptions};
 use std::time::Instant;
 
 #[path = "minkunet_bench/machine.rs"]
@@ -85,8 +87,19 @@ fn bench(options: &Options, coordinates: &[[i32; 4]], features: &Matrix) -> Resu
     })?;
     let peak_mib = machine::peak_rss_mib();
     let runs = if options.train { options.runs } else { 0 };
-    let (train_step_s, train_step_cpu_s) =
-        shortest(runs, || train(&mut cpu, &graph, &parameters, &batch))?;
+    let mut gradients = None;
+    let (train_step_s, train_step_cpu_s) = shortest(runs, || {
+        gradients = Some(train(&mut cpu, &graph, &parameters, &batch)?);
+        Ok(())
+    })?;
+    let mut optimiser = Optimiser::new(Rule::adamw(1e-4), &parameters);
+    let mut trained = parameters.clone();
+    let (update_s, _) = shortest(runs, || {
+        if let Some(gradients) = &gradients {
+            optimiser.update(&graph, &mut trained, &gradients.parameters, 1e-4);
+        }
+        Ok(())
+    })?;
     let sgemm = sgemm.max(machine::sgemm_gflop_per_s(options.threads));
     let gmac = machine::gmac(&graph, &mut neighbours)?;
     let number = |seconds: f64| match seconds.is_finite() {
@@ -94,11 +107,12 @@ fn bench(options: &Options, coordinates: &[[i32; 4]], features: &Matrix) -> Resu
         false => "null".to_owned(),
     };
     let (train_step_s, train_step_cpu_s) = (number(train_step_s), number(train_step_cpu_s));
+    let update_s = number(update_s);
     let gflop_per_s = 2.0 * gmac / forward_s;
     println!(
         "{{\"model\":\"{}\",\"voxels\":{voxels},\"gmac\":{gmac:.3},\"forward_s\":{forward_s:.4},\
          \"forward_cpu_s\":{forward_cpu_s:.2},\"train_step_s\":{train_step_s},\
-         \"train_step_cpu_s\":{train_step_cpu_s},\"maps_ms\":{:.1},\"gflop_per_s\":{gflop_per_s:.1},\
+         \"train_step_cpu_s\":{train_step_cpu_s},\"update_s\":{update_s},\"maps_ms\":{:.1},\"gflop_per_s\":{gflop_per_s:.1},\
          \"sgemm_gflop_per_s\":{sgemm:.1},\"ratio\":{:.3},\"peak_rss_mib\":{peak_mib:.0},\
          \"weights_rss_mib\":{weights_mib:.0},\"device\":\"{}\"}}",
         options.model,
@@ -124,15 +138,15 @@ fn shortest(
     Ok((wall_s, cpu_s))
 }
 
-/// One forward and backward pass, with gradients of all weights.
+/// One forward and backward pass, with gradients of all weights, as other libraries are timed.
 fn train(
     cpu: &mut Cpu,
     graph: &Graph,
     parameters: &Parameters,
     batch: &Batch,
-) -> Result<(), Failure> {
+) -> Result<Gradients, Failure> {
     // Of half the sum of squares: the loss costs nothing beside the network.
     let mut of = |outputs: &[Matrix]| Ok(outputs.to_vec());
-    cpu.forward_backward(graph, parameters, batch, PassOptions::default(), &mut of)?;
-    Ok(())
+    let options = PassOptions::default();
+    Ok(cpu.forward_backward(graph, parameters, batch, options, &mut of)?.1)
 }

@@ -118,6 +118,11 @@ impl Runs {
         self.starts.len() - 1
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Rows of every run.
     pub fn iter(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
         self.starts.windows(2).map(|pair| pair[0] as usize..pair[1] as usize)

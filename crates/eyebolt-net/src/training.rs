@@ -110,7 +110,7 @@ impl Trainer {
         if !loss.is_finite() {
             return bad(format!("the loss is {loss}"));
         }
-        let is_large = |value: &f32| !(value.abs() <= LARGEST_GRADIENT);
+        let is_large = |value: &f32| value.is_nan() || value.abs() > LARGEST_GRADIENT;
         for (spec, values) in graph.parameters().iter().zip(&gradients.parameters) {
             if let Some(value) = values.iter().copied().find(is_large) {
                 return bad(format!("a gradient of {} is {value}", spec.name));

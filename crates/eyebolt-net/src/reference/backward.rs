@@ -144,21 +144,22 @@ impl<T: Real> Pass<'_, T> {
         let (mean, variance) = moments(input);
         let inverse = inverse_deviation(&variance, norm.epsilon);
         let (rows, channels) = (input.rows(), input.channels());
-        let normal = |row: usize, c: usize| (input.row(row)[c] - mean[c]) * inverse[c];
+
         let mut back = Matrix::zeros(rows, channels);
-        for c in 0..channels {
+        for (c, &inverse) in inverse.iter().enumerate() {
+            let normal = |row: usize| (input.row(row)[c] - mean[c]) * inverse;
             let (mut of_shift, mut of_scale) = (T::default(), T::default());
             for row in 0..rows {
                 of_shift += gradient.row(row)[c];
-                of_scale += gradient.row(row)[c] * normal(row, c);
+                of_scale += gradient.row(row)[c] * normal(row);
             }
             self.of_parameters[norm.shift.0][c] += of_shift;
             self.of_parameters[norm.scale.0][c] += of_scale;
             let count = T::from_f32(rows as f32);
-            let factor = self.case.parameters[norm.scale.0][c] * inverse[c];
+            let factor = self.case.parameters[norm.scale.0][c] * inverse;
             for row in 0..rows {
                 let centred =
-                    gradient.row(row)[c] - of_shift / count - normal(row, c) * of_scale / count;
+                    gradient.row(row)[c] - of_shift / count - normal(row) * of_scale / count;
                 back.values_mut()[row * channels + c] = factor * centred;
             }
         }

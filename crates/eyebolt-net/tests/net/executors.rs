@@ -4,6 +4,7 @@ use crate::fixtures;
 use crate::runs::{executors, forward_backward};
 use crate::scenes::{every_operation, features, noise, parameters, sheet, within};
 use eyebolt_net::coordinates::{BLOCK_ROWS, KernelSpec};
+use eyebolt_net::executor::OutputGradients;
 use eyebolt_net::graph::{Domain, GraphBuilder, MapSpec, Op, Source};
 use eyebolt_net::reference::Reference;
 use eyebolt_net::{
@@ -200,7 +201,7 @@ fn gradients_that_do_not_fit_are_refused_and_losses_may_fail() {
     let case = case(6);
     let Case { graph, parameters, batch } = &case;
     for mut executor in executors() {
-        let mut refusal = |of: &mut dyn FnMut(&[Matrix]) -> Result<Vec<Matrix>, Error>| {
+        let mut refusal = |of: OutputGradients<'_>| {
             let options = PassOptions::default();
             let result = executor.forward_backward(graph, parameters, batch, options, of);
             result.unwrap_err().to_string()
