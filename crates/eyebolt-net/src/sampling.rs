@@ -31,6 +31,8 @@ impl Axes {
 ///
 /// # Panics
 /// If there are no points.
+#[doc(alias = "FPS")]
+#[doc(alias = "furthest_point_sample")]
 pub fn farthest_points(points: &[[f32; 3]], count: usize) -> Vec<u32> {
     assert!(!points.is_empty(), "there must be a point to sample");
     let axes = Axes::new(points);
@@ -69,8 +71,12 @@ fn place_of_largest(values: &[f32]) -> usize {
 /// # Panics
 /// If there are no points.
 pub fn uniform_points(points: usize, count: usize, seed: u64) -> Vec<u32> {
+    uniform_points_by(Random::new(seed), points, count)
+}
+
+/// The same from a stream.
+pub(crate) fn uniform_points_by(mut random: Random, points: usize, count: usize) -> Vec<u32> {
     assert!(points > 0, "there must be a point to sample");
-    let mut random = Random::new(seed);
     let mut chosen = Vec::with_capacity(count);
     for point in 0..points {
         let (left, wanted) = (points - point, count.saturating_sub(chosen.len()));
@@ -88,6 +94,7 @@ pub fn uniform_points(points: usize, count: usize, seed: u64) -> Vec<u32> {
 ///
 /// # Panics
 /// If there are no points.
+#[doc(alias = "query_ball_point")]
 pub fn ball_query(
     points: &[[f32; 3]],
     centres: &[[f32; 3]],
@@ -117,6 +124,7 @@ pub fn ball_query(
 ///
 /// # Panics
 /// If there are no sources.
+#[doc(alias = "three_nn")]
 pub fn three_nearest(sources: &[[f32; 3]], targets: &[[f32; 3]]) -> Vec<([u32; 3], [f32; 3])> {
     assert!(!sources.is_empty(), "there must be a point to find");
     // As the published code: where a target is a source, that one has nearly all the weight.

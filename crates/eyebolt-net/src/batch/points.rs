@@ -2,8 +2,9 @@
 
 use super::{Batch, Map, features_for};
 use crate::graph::{Domain, Graph, MapSpec, Source};
+use crate::random::Random;
 use crate::row_map::{RowMap, Runs};
-use crate::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
+use crate::sampling::{ball_query, farthest_points, three_nearest, uniform_points_by};
 use crate::{Error, Matrix};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,7 +14,8 @@ use std::sync::Arc;
 pub enum Sampling {
     /// Each the farthest from those before it.
     Farthest,
-    /// Without preference, by this seed.
+    /// Without preference, by this seed: in every item, by its place in the batch, and at every
+    /// level other ones.
     Uniform(u64),
 }
 
@@ -31,13 +33,19 @@ impl Level {
         self.starts.windows(2).map(|pair| (pair[0], &self.points[pair[0]..pair[1]]))
     }
 
-    fn sampled(&self, count: usize, sampling: Sampling) -> Self {
+    /// Samples of these points, `level` times sampled before.
+    fn sampled(&self, level: u64, count: usize, sampling: Sampling) -> Self {
         let mut points = Vec::new();
         let mut starts = vec![0];
-        for (_, item) in self.items() {
+        for (place, (_, item)) in (0..).zip(self.items()) {
             let chosen = match sampling {
                 Sampling::Farthest => farthest_points(item, count),
-                Sampling::Uniform(seed) => uniform_points(item.len(), count, seed),
+                // One stream for all would take points of the same places from items alike in
+                // size, and tie the samples of a level to those of the one below.
+                Sampling::Uniform(seed) => {
+                    let random = Random::new(seed).at(level).at(place);
+                    uniform_points_by(random, item.len(), count)
+                }
             };
             points.extend(chosen.into_iter().map(|at| item[at as usize]));
             starts.push(points.len());
@@ -51,8 +59,8 @@ impl Batch {
     /// the graph's radii), how many each item has, and their features, one row each.
     ///
     /// # Errors
-    /// If there are no items or an item has no point, a value is not finite, or there are not as
-    /// many features as the graph takes.
+    /// If there are no items or an item has no point, a value is not finite, there are not as many
+    /// features as the graph takes, or it is a graph on voxels.
     pub fn from_points(
         graph: &Graph,
         points: &[[f32; 3]],
@@ -74,6 +82,7 @@ impl Batch {
         let inputs = graph.inputs().map(|(_, node, source)| match source {
             Source::Features => features_for(graph, node, Domain::Points, features),
             Source::Offsets { level, scale } => offsets(graph, &levels, &groups, level, scale),
+            Source::Positions { level } => positions(at(&levels, level)?),
         });
         let inputs = inputs.collect::<Result<_, Error>>()?;
         Ok(Self::new(graph, rows, maps, inputs))
@@ -107,8 +116,8 @@ fn levels(
     let mut starts = vec![0];
     item_sizes.iter().for_each(|size| starts.push(starts[starts.len() - 1] + size));
     let mut levels = vec![Level { points: points.to_vec(), starts }];
-    for spec in graph.sampling() {
-        let sampled = levels[levels.len() - 1].sampled(spec.samples, sampling);
+    for (level, spec) in (0..).zip(graph.sampling()) {
+        let sampled = levels[levels.len() - 1].sampled(level, spec.samples, sampling);
         levels.push(sampled);
     }
     Ok(levels)
@@ -173,6 +182,10 @@ fn offsets(
     Matrix::new(rows.len(), 3, values.collect())
 }
 
+fn positions(level: &Level) -> Result<Matrix, Error> {
+    Matrix::new(level.points.len(), 3, level.points.iter().flatten().copied().collect())
+}
+
 fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Result<Map, Error> {
     let starts = |domain| match domain {
         Domain::Points => Ok(&levels[0].starts),
@@ -184,7 +197,7 @@ fn map(graph: &Graph, levels: &[Level], groups: &Groups, spec: MapSpec) -> Resul
         Ok::<_, Error>(Runs::new(starts.iter().map(|&start| start as u32).collect()))
     };
     Ok(match spec {
-        MapSpec::Items(domain) => Map::Runs(Arc::new(runs(domain)?)),
+        MapSpec::Maxima(domain) => Map::Runs(Arc::new(runs(domain)?)),
         MapSpec::Means(domain) => Map::Rows(Arc::new(RowMap::means(&runs(domain)?))),
         MapSpec::Group { level, scale } => {
             let inputs = at(levels, level - 1)?.points.len();

@@ -61,7 +61,7 @@ impl Batch {
             maps.push(match spec {
                 MapSpec::Kernel(spec) => Map::Kernel(neighbours.map(spec)?),
                 MapSpec::Slice => Map::Rows(slice.clone()),
-                MapSpec::Items(Domain::Voxels { stride }) => {
+                MapSpec::Maxima(Domain::Voxels { stride }) => {
                     let voxels = neighbours.voxels(stride)?;
                     Map::Runs(Arc::new(runs(&voxels)?))
                 }
@@ -74,7 +74,9 @@ impl Batch {
         }
         let sources = graph.inputs().map(|(_, node, source)| match source {
             Source::Features => features_for(graph, node, Domain::Voxels { stride: 1 }, &features),
-            Source::Offsets { .. } => Err(Error::network("graph", "samples points")),
+            Source::Offsets { .. } | Source::Positions { .. } => {
+                Err(Error::network("graph", "takes places of points; use Batch::from_points"))
+            }
         });
         let inputs = sources.collect::<Result<_, Error>>()?;
         Ok(Self::new(graph, rows, maps, inputs))

@@ -11,6 +11,7 @@ pub(super) const MAX_STEP: u32 = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Kernel {
     /// Voxels along each axis.
+    #[doc(alias = "kernel_size")]
     pub size: u32,
     /// Voxels from one offset to the next; 1 is dense.
     pub dilation: u32,
@@ -46,8 +47,9 @@ impl Kernel {
 /// A convolution between two resolutions, each named by its stride: the edge of its voxels in
 /// voxels of the finest.
 ///
-/// `from < to` is a strided convolution, `from > to` a transposed one onto voxels that are there
-/// already, with the offsets of the strided convolution back.
+/// `from < to` is a strided convolution ([`KernelSpec::down`]), `from > to` a transposed one
+/// ([`KernelSpec::up`]) onto voxels that are there already, with the offsets of the strided
+/// convolution back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct KernelSpec {
     /// Offsets, in voxels of the finer of both.
@@ -59,6 +61,32 @@ pub struct KernelSpec {
 }
 
 impl KernelSpec {
+    /// Within one resolution: every voxel of it from its neighbours that are occupied.
+    #[doc(alias = "submanifold")]
+    #[doc(alias = "SubMConv3d")]
+    pub fn within(kernel: Kernel, stride: u32) -> Self {
+        Self { kernel, from: stride, to: stride }
+    }
+
+    /// Strided: from voxels of stride `from` to those `factor` times as large.
+    #[doc(alias = "strided")]
+    #[doc(alias = "SparseConv3d")]
+    pub fn down(size: u32, from: u32, factor: u32) -> Self {
+        // Stride 0 is what `check` refuses.
+        Self { kernel: Kernel::new(size), from, to: from.checked_mul(factor).unwrap_or(0) }
+    }
+
+    /// Transposed: from voxels of stride `from` to those a `factor`th as large, which must be there
+    /// already; the convolution that undoes the shape of `down(size, from / factor, factor)`.
+    #[doc(alias = "transposed")]
+    #[doc(alias = "deconvolution")]
+    #[doc(alias = "SparseInverseConv3d")]
+    pub fn up(size: u32, from: u32, factor: u32) -> Self {
+        let divides = from.checked_rem(factor) == Some(0);
+        let to = if divides { from / factor } else { 0 };
+        Self { kernel: Kernel::new(size), from, to }
+    }
+
     /// That there can be such a convolution.
     ///
     /// # Errors

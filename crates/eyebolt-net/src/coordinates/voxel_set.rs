@@ -11,6 +11,8 @@ pub const COORDINATE_LIMIT: i32 = 1 << (BITS - 1);
 pub const MAX_ITEMS: usize = 1 << 10;
 
 /// Distinct voxels, item after item, each in Morton order.
+#[doc(alias = "SparseTensor")]
+#[doc(alias = "CoordinateManager")]
 #[derive(Clone, Debug)]
 pub struct VoxelSet {
     stride: u32,

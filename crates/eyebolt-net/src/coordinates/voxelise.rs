@@ -8,6 +8,9 @@ use crate::{Error, Matrix};
 /// # Errors
 /// If the edge is not positive, a point is NaN or infinite, or a voxel lies beyond
 /// [`COORDINATE_LIMIT`].
+#[doc(alias = "sparse_quantize")]
+#[doc(alias = "quantize")]
+#[doc(alias = "voxelize")]
 pub fn voxelise(item: u16, points_m: &[[f32; 3]], voxel_m: f32) -> Result<Vec<[i32; 4]>, Error> {
     if !(voxel_m.is_finite() && voxel_m > 0.0) {
         return Err(Error::input("voxel_m", format!("{voxel_m} is not a positive length")));

@@ -1,5 +1,7 @@
 //! Adding operations one after the other, with shapes checked on the way.
 
+mod rows;
+
 use super::{
     BatchNorm, Domain, Graph, MapId, MapSpec, Node, NodeId, Op, ParameterId, ParameterSpec, Role,
     SampleLevel, Source, check,
@@ -8,6 +10,44 @@ use crate::Error;
 use crate::coordinates::KernelSpec;
 
 /// Makes a [`Graph`]. Every method adds one operation and gives the node of its value.
+///
+/// A residual block, half the resolution and back, a skip connection, and logits of every point:
+///
+/// ```
+/// use eyebolt_net::coordinates::{Kernel, KernelSpec};
+/// use eyebolt_net::graph::{Domain, GraphBuilder, Source};
+/// use eyebolt_net::{Batch, Cpu, Executor, Matrix, Parameters};
+///
+/// # fn main() -> Result<(), eyebolt_net::Error> {
+/// let mut g = GraphBuilder::new();
+/// let features = g.input(Source::Features, Domain::Voxels { stride: 1 }, 3);
+/// let three = KernelSpec::within(Kernel::new(3), 1);
+///
+/// let stem = g.convolution("stem", features, three, 16, false)?;
+/// let stem = g.batch_norm("stem.norm", stem);
+/// let stem = g.relu(stem);
+///
+/// let x = g.convolution("residual", stem, three, 16, true)?;
+/// let x = g.add("sum", x, stem)?;
+/// let skip = g.relu(x);
+///
+/// let x = g.convolution("down", skip, KernelSpec::down(2, 1, 2), 32, true)?;
+/// let x = g.relu(x);
+/// let x = g.convolution("up", x, KernelSpec::up(2, 2, 2), 16, true)?;
+/// let x = g.concatenate("skip", &[x, skip])?;
+///
+/// let x = g.linear("logits", x, 5, true);
+/// let logits = g.slice("slice", x)?;
+/// let graph = g.finish(&[logits])?;
+///
+/// let coordinates = [[0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 7, 2, 3]];
+/// let batch = Batch::from_voxels(&graph, &coordinates, &Matrix::zeros(4, 3))?;
+/// let parameters = Parameters::initial(&graph, 1);
+/// let logits = Cpu::new().infer(&graph, &parameters, &batch)?;
+/// assert_eq!((logits[0].rows(), logits[0].channels()), (4, 5));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Default)]
 pub struct GraphBuilder {
     graph: Graph,
@@ -30,11 +70,15 @@ impl GraphBuilder {
         self.push("input", Op::Input(source), vec![], channels, domain)
     }
 
-    /// A convolution; `name.kernel` and `name.bias` are its parameters.
+    /// A convolution; `name.kernel` and `name.bias` are its parameters. Within one resolution where
+    /// `spec.from == spec.to`, strided where `from < to`, transposed where `from > to`.
     ///
     /// # Errors
     /// If there can be no such convolution, or `input` does not live on the voxels that it comes
     /// from.
+    #[doc(alias = "MinkowskiConvolution")]
+    #[doc(alias = "MinkowskiConvolutionTranspose")]
+    #[doc(alias = "Conv3d")]
     pub fn convolution(
         &mut self,
         name: &str,
@@ -58,6 +102,9 @@ impl GraphBuilder {
     }
 
     /// The same linear layer for every row; `name.weight` and `name.bias`.
+    #[doc(alias = "MinkowskiLinear")]
+    #[doc(alias = "Conv1d")]
+    #[doc(alias = "shared MLP")]
     pub fn linear(&mut self, name: &str, input: NodeId, channels: usize, bias: bool) -> NodeId {
         let inputs = self.channels(input);
         let weight = self.weight(format!("{name}.weight"), &[inputs, channels], inputs);
@@ -69,6 +116,8 @@ impl GraphBuilder {
 
     /// Batch norm with the usual constants; `name.weight`, `.bias`, `.running_mean`,
     /// `.running_var`.
+    #[doc(alias = "MinkowskiBatchNorm")]
+    #[doc(alias = "BatchNorm1d")]
     pub fn batch_norm(&mut self, name: &str, input: NodeId) -> NodeId {
         let shape = [self.channels(input)];
         let mut parameter =
@@ -86,16 +135,19 @@ impl GraphBuilder {
     }
 
     /// ReLU.
+    #[doc(alias = "MinkowskiReLU")]
     pub fn relu(&mut self, input: NodeId) -> NodeId {
         self.same_shape(Op::Activation { slope: 0.0 }, input)
     }
 
     /// Leaky ReLU.
+    #[doc(alias = "MinkowskiLeakyReLU")]
     pub fn leaky_relu(&mut self, input: NodeId, slope: f32) -> NodeId {
         self.same_shape(Op::Activation { slope }, input)
     }
 
     /// Dropout.
+    #[doc(alias = "MinkowskiDropout")]
     pub fn dropout(&mut self, input: NodeId, probability: f32) -> NodeId {
         self.same_shape(Op::Dropout { probability }, input)
     }
@@ -118,6 +170,7 @@ impl GraphBuilder {
     ///
     /// # Errors
     /// If there is nothing, or rows differ.
+    #[doc(alias = "cat")]
     pub fn concatenate(&mut self, name: &str, inputs: &[NodeId]) -> Result<NodeId, Error> {
         let domains: Vec<usize> = inputs.iter().map(|&input| self.node(input).domain).collect();
         let Some((&domain, rest)) = domains.split_first() else {
@@ -128,34 +181,6 @@ impl GraphBuilder {
         }
         let channels = inputs.iter().map(|&input| self.channels(input)).sum();
         Ok(self.push(name, Op::Concatenate, inputs.to_vec(), channels, domain))
-    }
-
-    /// Rows of the domain that a map leads to, as weighted sums.
-    ///
-    /// # Errors
-    /// If the input's rows are not those that the map comes from.
-    pub fn combine(&mut self, name: &str, input: NodeId, map: MapSpec) -> Result<NodeId, Error> {
-        if has_runs(map) {
-            return Err(Error::network(name, format!("{map:?} has no weights")));
-        }
-        let (from, to) = ends(name, map)?;
-        self.expect_domain(name, input, from)?;
-        let (map, domain, channels) = (self.map(map), self.domain(to), self.channels(input));
-        Ok(self.push(name, Op::Combine { map }, vec![input], channels, domain))
-    }
-
-    /// Maximum over the runs of a map.
-    ///
-    /// # Errors
-    /// If the map has no runs, or the input's rows are not those that it comes from.
-    pub fn max_pool(&mut self, name: &str, input: NodeId, map: MapSpec) -> Result<NodeId, Error> {
-        if !has_runs(map) {
-            return Err(Error::network(name, format!("cannot pool over {map:?}")));
-        }
-        let (from, to) = ends(name, map)?;
-        self.expect_domain(name, input, from)?;
-        let (map, domain, channels) = (self.map(map), self.domain(to), self.channels(input));
-        Ok(self.push(name, Op::MaxPool { map }, vec![input], channels, domain))
     }
 
     /// Channels of a node's value.
@@ -220,29 +245,6 @@ impl GraphBuilder {
         }
         Err(Error::network(name, format!("needs a value on {expected:?}, not on {found:?}")))
     }
-}
-
-/// Whether a map is of runs of rows, rather than of weighted rows.
-fn has_runs(map: MapSpec) -> bool {
-    matches!(map, MapSpec::Items(_) | MapSpec::Neighbours { .. })
-}
-
-/// Where a map comes from and leads to.
-fn ends(name: &str, map: MapSpec) -> Result<(Domain, Domain), Error> {
-    Ok(match map {
-        MapSpec::Slice => (Domain::Voxels { stride: 1 }, Domain::Points),
-        MapSpec::Items(domain) | MapSpec::Means(domain) => (domain, Domain::Items),
-        MapSpec::Group { level, scale } if level > 0 => {
-            (Domain::samples(level - 1), Domain::Groups { level, scale })
-        }
-        MapSpec::Neighbours { level, scale } => {
-            (Domain::Groups { level, scale }, Domain::samples(level))
-        }
-        MapSpec::Interpolate { level } if level > 0 => {
-            (Domain::samples(level), Domain::samples(level - 1))
-        }
-        _ => return Err(Error::network(name, format!("{map:?} is not a map between rows"))),
-    })
 }
 
 fn place_of<T: PartialEq>(list: &mut Vec<T>, item: T) -> usize {

@@ -10,6 +10,7 @@ pub enum Domain {
     /// Occupied voxels, `stride` of the finest along an edge.
     Voxels {
         /// Edge, in voxels of the finest resolution.
+        #[doc(alias = "tensor_stride")]
         stride: u32,
     },
     /// One row for each item of the batch.
@@ -42,9 +43,9 @@ pub enum MapSpec {
     Kernel(KernelSpec),
     /// From the finest voxels to the points in them.
     Slice,
-    /// The rows of each item, for their maximum.
-    Items(Domain),
-    /// The rows of each item, for their mean.
+    /// From the rows of each item to their maximum.
+    Maxima(Domain),
+    /// From the rows of each item to their mean.
     Means(Domain),
     /// From samples of the level below to the neighbours of each sample.
     Group {
@@ -72,12 +73,19 @@ pub enum MapSpec {
 pub enum Source {
     /// The features of the batch.
     Features,
-    /// Where neighbours are, seen from their sample, in the units of the points.
+    /// Where neighbours are, seen from their sample, in the units of the points; 3 channels on
+    /// [`Domain::Groups`].
     Offsets {
         /// Level of the samples.
         level: u32,
         /// Which radius.
         scale: u32,
+    },
+    /// Where samples are, in the units and the frame of the points; 3 channels on
+    /// [`Domain::samples`].
+    Positions {
+        /// Level of the samples; 0 are the points.
+        level: u32,
     },
 }
 

@@ -1,6 +1,6 @@
 //! `model.toml`: all that is needed to use weights.
 
-use super::{MinkUNet, PointNet2};
+use super::{MinkEncoder, MinkUNet, PointNet2};
 use crate::{Error, Graph, Parameters, weights};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -13,13 +13,8 @@ const FILE: &str = "model.toml";
 pub enum Architecture {
     /// Logits of every point by its voxel.
     Minkunet(MinkUNet),
-    /// The encoder of a MinkUNet, then linear layers.
-    MinkunetRegression {
-        /// Whose encoder.
-        encoder: MinkUNet,
-        /// Widths of the layers, the last of which are the outputs.
-        widths: Vec<usize>,
-    },
+    /// The encoder of a MinkUNet, then linear layers: numbers of every item.
+    MinkunetRegression(MinkEncoder),
     /// PointNet++.
     Pointnet2(PointNet2),
 }
@@ -32,7 +27,7 @@ impl Architecture {
     pub fn graph(&self) -> Result<Graph, Error> {
         match self {
             Self::Minkunet(net) => net.graph(),
-            Self::MinkunetRegression { encoder, widths } => encoder.regression_graph(widths),
+            Self::MinkunetRegression(net) => net.graph(),
             Self::Pointnet2(net) => net.graph(),
         }
     }

@@ -2,9 +2,9 @@
 
 use crate::runs::{executors, forward_backward};
 use crate::scenes::{every_operation, features, parameters};
-use eyebolt_net::coordinates::{Neighbours, VoxelSet};
-use eyebolt_net::graph::{Domain, GraphBuilder, NodeId, Source};
-use eyebolt_net::models::{MinkUNet, PointNet2, Task};
+use eyebolt_net::coordinates::{KernelSpec, Neighbours, VoxelSet};
+use eyebolt_net::graph::{Domain, GraphBuilder, NodeId, SampleLevel, Source};
+use eyebolt_net::models::{MinkEncoder, MinkUNet, PointNet2, Task};
 use eyebolt_net::{Batch, Cpu, Error, Executor, Graph, Matrix, Parameters, PassOptions, Sampling};
 
 fn refusal(result: Result<Batch, Error>) -> String {
@@ -74,11 +74,22 @@ fn a_single_point() {
     let graph = every_operation();
     let batch = Batch::from_voxels(&graph, &[[0, -5, 0, 9]], &features(1, 1, 3)).unwrap();
     assert_only_inferred(&graph, &parameters(&graph, 2), &batch);
-    let net = PointNet2 { task: Task::Classification(vec![4]), ..PointNet2::single_scale(3, 2) };
-    let graph = net.graph().unwrap();
-    let batch =
-        Batch::from_points(&graph, &[[0.1; 3]], &[1], &features(1, 1, 3), Sampling::Farthest);
-    assert_only_inferred(&graph, &Parameters::initial(&graph, 0), &batch.unwrap());
+    // Without features, too: where points are is then all that is known of them.
+    for inputs in [3, 0] {
+        let mut net = PointNet2::multi_scale_classification(inputs, 2);
+        for level in &mut net.abstractions {
+            level.samples = 4;
+            level.scales.iter_mut().for_each(|scale| scale.neighbours = 4);
+        }
+        let graph = net.graph().unwrap();
+        let parameters = Parameters::initial(&graph, 0);
+        let batch = |points: &[[f32; 3]]| {
+            let (items, features) = (vec![1; points.len()], features(1, points.len(), inputs));
+            Batch::from_points(&graph, points, &items, &features, Sampling::Farthest).unwrap()
+        };
+        assert_only_inferred(&graph, &parameters, &batch(&[[0.1; 3]]));
+        assert_finite(&graph, &parameters, &batch(&[[0.1; 3], [0.2; 3]]));
+    }
 }
 
 #[test]
@@ -128,12 +139,67 @@ fn networks_that_are_none() {
     assert!(MinkUNet::named("minkunet99", 3, 3).unwrap_err().to_string().contains("not known"));
     let mut net = MinkUNet::named("MinkUNet34C", 3, 3).unwrap();
     net.channels[3] = 0;
-    assert!(net.graph().unwrap_err().to_string().contains("0 channels"));
+    assert!(net.graph().unwrap_err().to_string().contains("channels: 0 channels"));
+    let mut net = MinkUNet::named("50", 3, 3).unwrap();
+    net.layers[6] = 65;
+    assert!(net.graph().unwrap_err().to_string().contains("65 blocks; there must be 1 to 64"));
     let mut net = PointNet2::single_scale(3, 2);
     net.abstractions[1].scales[0].radius = f32::NAN;
     assert!(net.graph().unwrap_err().to_string().contains("radius NaN"));
     net.abstractions.pop();
-    assert!(net.graph().is_err());
+    assert!(net.graph().unwrap_err().to_string().contains("radius NaN"));
+    net.abstractions.pop();
+    net.abstractions.pop();
+    assert!(net.graph().unwrap_err().to_string().contains("4 levels up"));
+    net.abstractions.clear();
+    net.task = Task::Classification(vec![8]);
+    assert!(net.graph().unwrap_err().to_string().contains("abstractions: 0 of them"));
+}
+
+#[test]
+fn encoders_that_are_none() {
+    let refusal = |change: &dyn Fn(&mut MinkEncoder)| {
+        let mut net = MinkEncoder::named("minkunet18", 3, &[2048, 4]).unwrap();
+        net.graph().unwrap();
+        change(&mut net);
+        net.graph().unwrap_err().to_string()
+    };
+    assert!(MinkEncoder::named("18e", 3, &[4]).unwrap_err().to_string().contains("not known"));
+    assert!(refusal(&|net| net.widths.clear()).contains("widths: 0 layers"));
+    assert!(refusal(&|net| net.widths[0] = 4097).contains("widths: 4097 channels"));
+    assert!(refusal(&|net| net.widths = vec![1; 65]).contains("widths: 65 layers"));
+    assert!(refusal(&|net| net.layers[2] = 1 << 40).contains("blocks; there must be 1 to 64"));
+    assert!(refusal(&|net| net.stem_kernel = 4).contains("stem_kernel 4"));
+    assert!(refusal(&|net| net.inputs = 0).contains("inputs: 0 channels"));
+}
+
+#[test]
+fn operations_that_do_not_fit() {
+    let level = SampleLevel { samples: 4, scales: vec![] };
+    let mut g = GraphBuilder::with_sampling(vec![level]);
+    let voxels = g.input(Source::Features, Domain::Voxels { stride: 2 }, 3);
+    let points = g.input(Source::Features, Domain::Points, 3);
+    let (samples, items) = (g.positions(1), g.global_max_pool("max", voxels).unwrap());
+    let refused = |result: Result<_, Error>| result.unwrap_err().to_string();
+    assert!(refused(g.slice("slice", voxels)).contains("slice: needs a value on"));
+    assert!(refused(g.global_average_pool("mean", items)).contains("mean: "));
+    assert!(refused(g.group("group", points, 0)).contains("no scale 0 at level 1"));
+    assert!(refused(g.group("group", samples, 0)).contains("no scale 0 at level 2"));
+    assert!(refused(g.group("group", voxels, 0)).contains("needs a value of samples"));
+    assert!(refused(g.group_max_pool("pool", samples)).contains("needs a value of neighbours"));
+    assert!(refused(g.interpolate("up", points)).contains("not a map between rows"));
+    assert!(g.interpolate("up", samples).is_ok());
+    for spec in [
+        KernelSpec::down(2, u32::MAX, 2),
+        KernelSpec::up(2, 8, 3),
+        KernelSpec::up(2, 8, 0),
+        KernelSpec::up(2, 0, 0),
+    ] {
+        assert!(spec.check().is_err(), "{spec:?}");
+    }
+    // Places of points are not known of voxels.
+    let graph = g.finish(&[samples]).unwrap();
+    assert!(Batch::from_voxels(&graph, &[[0, 1, 2, 3]], &Matrix::zeros(1, 3)).is_err());
 }
 
 #[test]

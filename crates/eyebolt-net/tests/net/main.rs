@@ -7,6 +7,7 @@ mod fixtures;
 mod gradients;
 mod learning;
 mod outside;
+mod published;
 mod pytorch_minkunet;
 mod pytorch_operations;
 mod pytorch_points;

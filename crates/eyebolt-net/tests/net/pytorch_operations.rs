@@ -2,9 +2,9 @@
 
 use crate::fixtures::{Fixture, assert_close, hashed_matrix, parameters, reordered};
 use crate::runs::{executors, forward_backward};
-use crate::scenes::{between, within};
+use crate::scenes::within;
 use eyebolt_net::coordinates::{KernelSpec, Neighbours, VoxelSet};
-use eyebolt_net::graph::{Domain, GraphBuilder, MapSpec, Source};
+use eyebolt_net::graph::{Domain, GraphBuilder, Source};
 use eyebolt_net::{Batch, Graph, Matrix};
 
 const TOLERANCE: f32 = 1e-5;
@@ -75,14 +75,14 @@ fn convolutions() {
 
 #[test]
 fn strided_convolutions() {
-    convolution("down2", 6, 5, None, between(2, 1, 2));
-    convolution("down3", 4, 5, None, between(3, 1, 2));
+    convolution("down2", 6, 5, None, KernelSpec::down(2, 1, 2));
+    convolution("down3", 4, 5, None, KernelSpec::down(3, 1, 2));
 }
 
 #[test]
 fn transposed_convolutions() {
-    convolution("up2", 6, 5, Some(between(2, 1, 2)), between(2, 2, 1));
-    convolution("up3", 4, 5, Some(between(2, 1, 2)), between(3, 2, 1));
+    convolution("up2", 6, 5, Some(KernelSpec::down(2, 1, 2)), KernelSpec::up(2, 2, 2));
+    convolution("up3", 4, 5, Some(KernelSpec::down(2, 1, 2)), KernelSpec::up(3, 2, 2));
 }
 
 #[test]
@@ -132,10 +132,9 @@ fn pools_and_activations() {
     let fixture = Fixture::read("operations");
     let cells = fixture.cells("cells");
     let mut g = GraphBuilder::new();
-    let domain = Domain::Voxels { stride: 1 };
-    let x = g.input(Source::Features, domain, 6);
-    let mean = g.combine("mean", x, MapSpec::Means(domain)).unwrap();
-    let largest = g.max_pool("largest", x, MapSpec::Items(domain)).unwrap();
+    let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 6);
+    let mean = g.global_average_pool("mean", x).unwrap();
+    let largest = g.global_max_pool("largest", x).unwrap();
     let pooled = g.concatenate("pooled", &[mean, largest]).unwrap();
     let (leaky, relu) = (g.leaky_relu(x, 0.1), g.relu(x));
     let sum = g.add("sum", leaky, relu).unwrap();
@@ -163,7 +162,7 @@ fn slices_linear_layers_and_dropout() {
     let (cells, points) = (fixture.cells("cells"), fixture.cells("points"));
     let mut g = GraphBuilder::new();
     let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 6);
-    let sliced = g.combine("slice", x, MapSpec::Slice).unwrap();
+    let sliced = g.slice("slice", x).unwrap();
     let linear = g.linear("layer", sliced, 5, true);
     let dropped = g.dropout(linear, 0.3);
     let graph = g.finish(&[linear, dropped]).unwrap();

@@ -2,10 +2,11 @@
 
 use crate::fixtures::{Fixture, assert_close, assert_within, hashed, hashed_matrix};
 use crate::runs::{executors, forward_backward};
+use eyebolt_net::graph::SampleLevel;
 use eyebolt_net::models::{Abstraction, PointNet2, Scale, Task};
 use eyebolt_net::reference::Reference;
 use eyebolt_net::sampling::{ball_query, farthest_points, three_nearest, uniform_points};
-use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters, Sampling};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, GraphBuilder, Matrix, Parameters, Sampling};
 
 fn points() -> Vec<[f32; 3]> {
     hashed("points", 600).as_chunks::<3>().0.to_vec()
@@ -68,9 +69,14 @@ fn network(several: bool) -> PointNet2 {
             level(10, scale(0.4, 4, [10, 12]), scale(0.8, 8, [10, 12])),
         ],
         task: Task::Segmentation(vec![vec![11], vec![12, 13]]),
-        head: 9,
+        head: vec![9],
         dropout: 0.0,
     }
+}
+
+/// As published: a last group with where samples are, and two layers before the logits.
+fn classification() -> PointNet2 {
+    PointNet2 { task: Task::Classification(vec![16, 24]), head: vec![20, 16], ..network(true) }
 }
 
 fn parameters(graph: &Graph, prefix: &str) -> Parameters {
@@ -86,48 +92,49 @@ fn parameters(graph: &Graph, prefix: &str) -> Parameters {
     Parameters::new(graph, values.collect()).unwrap()
 }
 
-#[test]
-fn networks_forward_and_backward() {
+/// The network of this name of the script, on items of 25 points each, against what it says.
+fn compare(name: &str, net: &PointNet2, items: usize) {
     let fixture = Fixture::read("points");
-    let points = points();
-    let classification = PointNet2 { task: Task::Classification(vec![14, 15]), ..network(true) };
-    for (name, net) in [("one", network(false)), ("two", network(true)), ("class", classification)]
-    {
-        let graph = net.graph().unwrap();
-        let features = hashed_matrix("points", 200, 3);
-        let batch = Batch::from_points(&graph, &points, &[25; 8], &features, Sampling::Farthest);
-        let batch = batch.unwrap();
-        let parameters = parameters(&graph, &format!("{name}."));
-        let expected = |part: &str| fixture.floats(&format!("{name}.{part}"));
-        for mut executor in executors() {
-            let tolerance = if executor.device() == "reference, f64" { 1e-6 } else { 1e-5 };
-            let logits = executor.infer(&graph, &parameters, &batch).unwrap();
-            assert_close(name, logits[0].values(), expected("inferred"), tolerance);
-            let case = (&graph, &parameters, &batch);
-            let of = |outputs: &[Matrix]| {
-                vec![hashed_matrix(&format!("{name}.weigh"), outputs[0].rows(), 3)]
-            };
-            let (forward, found) = forward_backward(&mut *executor, case, 0, of);
-            assert_close(name, forward.outputs[0].values(), expected("trained"), tolerance);
-            assert_close(name, found.inputs[0].values(), expected("of.features"), tolerance);
-            for (spec, values) in graph.parameters().iter().zip(&found.parameters) {
-                if spec.role.is_trained() {
-                    let wanted = expected(&format!("of.{}", spec.name));
-                    // A bias before a batch norm has no gradient, so the scale is the weights'.
-                    let weights =
-                        expected(&format!("of.{}", spec.name.replace(".bias", ".weight")));
-                    let largest = weights.iter().fold(0.0_f32, |a, b| a.max(b.abs()));
-                    assert_within(&spec.name, values, wanted, tolerance * largest);
-                }
+    let graph = net.graph().unwrap();
+    let features = hashed_matrix("points", 25 * items, 3);
+    let points = features.values().as_chunks::<3>().0;
+    let sizes = vec![25; items];
+    let batch = Batch::from_points(&graph, points, &sizes, &features, Sampling::Farthest).unwrap();
+    let parameters = parameters(&graph, &format!("{name}."));
+    let expected = |part: &str| fixture.floats(&format!("{name}.{part}"));
+    for mut executor in executors() {
+        let tolerance = if executor.device() == "reference, f64" { 1e-6 } else { 1e-5 };
+        let logits = executor.infer(&graph, &parameters, &batch).unwrap();
+        assert_close(name, logits[0].values(), expected("inferred"), tolerance);
+        let of = |outputs: &[Matrix]| {
+            vec![hashed_matrix(&format!("{name}.weigh"), outputs[0].rows(), 3)]
+        };
+        let case = (&graph, &parameters, &batch);
+        let (forward, found) = forward_backward(&mut *executor, case, 0, of);
+        assert_close(name, forward.outputs[0].values(), expected("trained"), tolerance);
+        assert_close(name, found.inputs[0].values(), expected("of.features"), tolerance);
+        for (spec, values) in graph.parameters().iter().zip(&found.parameters) {
+            if spec.role.is_trained() {
+                let wanted = expected(&format!("of.{}", spec.name));
+                // A bias before a batch norm has no gradient, so the scale is the weights'.
+                let weights = expected(&format!("of.{}", spec.name.replace(".bias", ".weight")));
+                let largest = weights.iter().fold(0.0_f32, |a, b| a.max(b.abs()));
+                assert_within(&spec.name, values, wanted, tolerance * largest);
             }
         }
     }
 }
 
 #[test]
+fn networks_forward_and_backward() {
+    compare("one", &network(false), 8);
+    compare("two", &network(true), 8);
+    compare("class", &classification(), 20);
+}
+
+#[test]
 fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
-    let classification = PointNet2 { task: Task::Classification(vec![14, 15]), ..network(true) };
-    for net in [network(false), classification] {
+    for net in [network(false), classification()] {
         let graph = net.graph().unwrap();
         let parameters = parameters(&graph, "");
         let points = points();
@@ -136,7 +143,7 @@ fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
             let features = all[3 * range.start..3 * range.end].to_vec();
             let features = Matrix::new(range.len(), 3, features).unwrap();
             let points = &points[range];
-            Batch::from_points(&graph, points, sizes, &features, Sampling::Uniform(3)).unwrap()
+            Batch::from_points(&graph, points, sizes, &features, Sampling::Farthest).unwrap()
         };
         let mut cpu = Cpu::new();
         let mut infer = |batch: &Batch| cpu.infer(&graph, &parameters, batch).unwrap()[0].clone();
@@ -161,4 +168,32 @@ fn two_items_are_as_each_alone_and_gradients_are_those_of_the_reference() {
         }
         assert_close("input", found.inputs[0].values(), expected.inputs[0].values(), 1e-4);
     }
+}
+
+/// Where so many samples are, level after level, of items with the same points.
+fn positions(items: usize, counts: [usize; 2], sampling: Sampling) -> [Vec<f32>; 2] {
+    let levels = counts.map(|samples| SampleLevel { samples, scales: vec![] });
+    let mut g = GraphBuilder::with_sampling(levels.to_vec());
+    let outputs = [1, 2].map(|level| g.positions(level));
+    let graph = g.finish(&outputs).unwrap();
+    let points = points()[..40].repeat(items);
+    let features = Matrix::zeros(points.len(), 0);
+    let sizes = vec![40; items];
+    let batch = Batch::from_points(&graph, &points, &sizes, &features, sampling).unwrap();
+    [0, 1].map(|level| batch.inputs()[level].values().to_vec())
+}
+
+#[test]
+fn uniform_samples_of_items_and_levels_are_drawn_apart() {
+    let uniform = |items, counts| positions(items, counts, Sampling::Uniform(7));
+    let [both, _] = uniform(2, [20, 10]);
+    let (first, second) = both.split_at(20 * 3);
+    assert_ne!(first, second);
+    let [farthest, _] = positions(2, [20, 10], Sampling::Farthest);
+    assert_eq!(farthest[..60], farthest[60..], "items alike");
+    // The first level keeps all points, so that both levels draw 10 of the same 40.
+    assert_ne!(uniform(1, [40, 10])[1], uniform(1, [10, 5])[0]);
+    assert_eq!(uniform(1, [20, 10])[0], first, "items behind it change nothing");
+    assert_eq!(uniform(2, [20, 10])[0], both);
+    assert_ne!(positions(1, [20, 10], Sampling::Uniform(8))[0], first);
 }

@@ -1,7 +1,7 @@
 //! Small inputs and networks that tests share.
 
 use eyebolt_net::coordinates::{Kernel, KernelSpec};
-use eyebolt_net::graph::{Domain, Graph, GraphBuilder, MapSpec, NodeId, Source};
+use eyebolt_net::graph::{Domain, Graph, GraphBuilder, NodeId, Source};
 use eyebolt_net::{Matrix, Parameters};
 
 /// Numbers without a pattern, uniform in `[-1, 1)`, the same ones in every run (Marsaglia's
@@ -45,12 +45,7 @@ pub fn parameters(graph: &Graph, seed: u64) -> Parameters {
 
 /// A kernel within one resolution.
 pub fn within(size: u32, dilation: u32, stride: u32) -> KernelSpec {
-    KernelSpec { kernel: Kernel { size, dilation }, from: stride, to: stride }
-}
-
-/// A kernel between two.
-pub fn between(size: u32, from: u32, to: u32) -> KernelSpec {
-    KernelSpec { kernel: Kernel::new(size), from, to }
+    KernelSpec::within(Kernel { size, dilation }, stride)
 }
 
 /// Every operation on voxels once, with branches that join and values used twice.
@@ -64,25 +59,25 @@ pub fn every_operation() -> Graph {
     let b = g.leaky_relu(b, 0.1);
     let sum = g.add("sum", a, b).unwrap();
     let sum = g.relu(sum);
-    let down = g.convolution("down", sum, between(2, 1, 2), 20, false).unwrap();
+    let down = g.convolution("down", sum, KernelSpec::down(2, 1, 2), 20, false).unwrap();
     let down = g.batch_norm("down.norm", down);
-    let wide = g.convolution("wide", down, between(3, 2, 4), 7, true).unwrap();
+    let wide = g.convolution("wide", down, KernelSpec::down(3, 2, 2), 7, true).unwrap();
     let even = g.convolution("even", wide, within(2, 1, 4), 70, false).unwrap();
     let even = g.dropout(even, 0.3);
-    let up = g.convolution("up", even, between(3, 4, 2), 20, false).unwrap();
+    let up = g.convolution("up", even, KernelSpec::up(3, 4, 2), 20, false).unwrap();
     let joined = g.concatenate("joined", &[up, down]).unwrap();
     let joined = g.batch_norm("joined.norm", joined);
-    let up = g.convolution("up2", joined, between(2, 2, 1), 9, true).unwrap();
+    let up = g.convolution("up2", joined, KernelSpec::up(2, 2, 2), 9, true).unwrap();
     let up = g.convolution("plain", up, within(1, 1, 1), 11, true).unwrap();
-    let points = g.combine("slice", up, MapSpec::Slice).unwrap();
+    let points = g.slice("slice", up).unwrap();
     let points = g.linear("head", points, 5, true);
-    let pooled = pooled(&mut g, even, 4);
+    let pooled = pooled(&mut g, even);
     g.finish(&[points, pooled]).unwrap()
 }
 
-fn pooled(g: &mut GraphBuilder, value: NodeId, stride: u32) -> NodeId {
-    let mean = g.combine("mean", value, MapSpec::Means(Domain::Voxels { stride })).unwrap();
-    let largest = g.max_pool("largest", value, MapSpec::Items(Domain::Voxels { stride })).unwrap();
+fn pooled(g: &mut GraphBuilder, value: NodeId) -> NodeId {
+    let mean = g.global_average_pool("mean", value).unwrap();
+    let largest = g.global_max_pool("largest", value).unwrap();
     let both = g.concatenate("both", &[mean, largest]).unwrap();
     g.linear("regression", both, 4, true)
 }

@@ -1,7 +1,9 @@
 //! Weights in and out: completely, or an error that says which tensor.
 
 use crate::fixtures::{hashed, parameters};
-use eyebolt_net::models::{Architecture, MinkUNet, Model, ModelDescription, PointNet2};
+use eyebolt_net::models::{
+    Architecture, MinkEncoder, MinkUNet, Model, ModelDescription, PointNet2,
+};
 use eyebolt_net::{Graph, weights};
 use proptest::prelude::*;
 use safetensors::Dtype;
@@ -179,7 +181,9 @@ fn description(architecture: Architecture, features: usize) -> ModelDescription 
 #[test]
 fn a_model_is_its_description_and_its_weights() {
     let points = Architecture::Pointnet2(PointNet2::multi_scale(3, 6));
-    let encoder = Architecture::MinkunetRegression { encoder: network(), widths: vec![8, 4] };
+    let mut encoder = MinkEncoder::named("minkunet14", 2, &[8, 4]).unwrap();
+    encoder.channels = [3, 4, 4, 4];
+    let encoder = Architecture::MinkunetRegression(encoder);
     for (architecture, features) in
         [(Architecture::Minkunet(network()), 2), (encoder, 2), (points, 3)]
     {

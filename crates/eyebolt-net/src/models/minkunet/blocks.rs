@@ -19,8 +19,25 @@ pub fn convolution_norm_relu(
     Ok(g.relu(x))
 }
 
-/// One block of a stage. The shortcut is a convolution of one voxel where channels change.
+/// The blocks of a stage, `block1.0`, `block1.1`, ... of the first.
 pub fn stage(
+    g: &mut GraphBuilder,
+    index: usize,
+    block: Block,
+    blocks: usize,
+    mut x: NodeId,
+    channels: usize,
+    stride: u32,
+) -> Result<NodeId, Error> {
+    for place in 0..blocks {
+        let name = format!("block{}.{place}", index + 1);
+        x = residual(g, &name, block, x, channels, stride)?;
+    }
+    Ok(x)
+}
+
+/// One block. The shortcut is a convolution of one voxel where channels change.
+fn residual(
     g: &mut GraphBuilder,
     name: &str,
     block: Block,
@@ -28,7 +45,7 @@ pub fn stage(
     channels: usize,
     stride: u32,
 ) -> Result<NodeId, Error> {
-    let spec = |size| KernelSpec { kernel: Kernel::new(size), from: stride, to: stride };
+    let spec = |size| KernelSpec::within(Kernel::new(size), stride);
     let out = channels * block.expansion();
     let sizes: &[u32] = match block {
         Block::Basic => &[3, 3],
