@@ -583,17 +583,16 @@ frame = "camera_optical"
 trained_on = "simulation"
 commit = "0"
 """
-MINKUNET = """block = "bottleneck"
-layers = [1, 1, 1, 1, 1, 1, 1, 1]
-channels = [2, 2, 2, 2, 2, 2, 2, 2]
+ENCODER = """block = "bottleneck"
+layers = [1, 1, 1, 1%s]
+channels = [2, 2, 2, 2%s]
 stem_channels = 2
 stem_kernel = 3
 inputs = 2
-outputs = 3
 """
 POINTNET = """inputs = 2
 outputs = 3
-head = 4
+head = [4, 5]
 dropout = 0.5
 task = { segmentation = [[3, 3]] }
 [[architecture.pointnet2.abstractions]]
@@ -604,9 +603,10 @@ scales = [{ radius = 0.1, neighbours = 4, channels = [3, 4] }]
 
 def models() -> None:
     voxels = "voxel_m = 0.005\n" + MODEL + "[metrics]\niou = 0.5\n"
-    put("model/minkunet.toml", voxels + "[architecture.minkunet]\n" + MINKUNET + "head = { hidden = [256, 1024] }\n")
-    regression = "[architecture.minkunet_regression]\nwidths = [2048, 4]\n[architecture.minkunet_regression.encoder]\n"
-    put("model/regression.toml", voxels + regression + MINKUNET + 'head = "convolution"\n')
+    whole = ENCODER % (", 1, 1, 1, 1", ", 2, 2, 2, 2") + "outputs = 3\nhead = { hidden = [256, 1024] }\n"
+    put("model/minkunet.toml", voxels + "[architecture.minkunet]\n" + whole)
+    regression = ENCODER % ("", "") + "widths = [2048, 3]\n"
+    put("model/regression.toml", voxels + "[architecture.minkunet_regression]\n" + regression)
     put("model/pointnet2.toml", MODEL + "[metrics]\n[architecture.pointnet2]\n" + POINTNET)
 
 
