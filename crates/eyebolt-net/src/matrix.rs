@@ -71,6 +71,16 @@ impl<T: Copy + Default> Matrix<T> {
 }
 
 impl Matrix<f32> {
+    /// The channel with the largest value of each row, of equals the first: the class, where these
+    /// are logits.
+    pub fn argmax(&self) -> Vec<u32> {
+        let largest = |row: &[f32]| {
+            let better = |best: usize, c: usize| if row[c] > row[best] { c } else { best };
+            (0..row.len()).fold(0, better) as u32
+        };
+        (0..self.rows).map(|row| largest(self.row(row))).collect()
+    }
+
     /// That no value is NaN or infinite.
     ///
     /// # Errors
@@ -84,5 +94,17 @@ impl Matrix<f32> {
             field,
             format!("row {row}, channel {channel} is {}; drop such points", self.values[at]),
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Matrix;
+
+    #[test]
+    fn the_largest_of_each_row() {
+        let values = vec![0.0, 2.0, 2.0, -1.0, -3.0, -2.0];
+        assert_eq!(Matrix::new(2, 3, values).unwrap().argmax(), [1, 0]);
+        assert_eq!(Matrix::<f32>::zeros(2, 0).argmax(), [0, 0]);
     }
 }
