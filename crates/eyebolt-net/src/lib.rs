@@ -84,3 +84,8 @@ pub use executor::{Executor, Forward, Gradients};
 pub use graph::{Graph, GraphBuilder};
 pub use matrix::Matrix;
 pub use parameters::Parameters;
+
+/// The examples of the README are tested as those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,70 @@
+//! What to say where the names of a file are not those of a network.
+
+use super::entry::Entry;
+use std::collections::BTreeSet;
+
+/// Names that are listed; of more than these, their number.
+const LISTED: usize = 3;
+
+/// The first name that is missing, and what to say about it; nothing if every parameter is there.
+pub fn missing(entries: &[Entry], left: &BTreeSet<String>) -> Option<(String, String)> {
+    let missing: Vec<&str> = entries
+        .iter()
+        .filter(|entry| entry.name_in(left).is_none())
+        .map(|entry| entry.forms[0].name.as_str())
+        .collect();
+    let (first, more) = missing.split_first()?;
+    let wanted: BTreeSet<&str> = entries.iter().filter_map(|entry| entry.name_in(left)).collect();
+    let others: Vec<&str> =
+        left.iter().map(String::as_str).filter(|name| !wanted.contains(name)).collect();
+    let mut problem = "missing".to_owned();
+    if !more.is_empty() {
+        problem += &format!(", as are {}", list(more));
+    }
+    match others[..] {
+        [] => problem += "; the file has nothing in their place",
+        _ => problem += &format!("; there instead: {}", list(&others)),
+    }
+    if let Some(hint) = hint(&missing, left) {
+        problem += &format!("; {hint}");
+    }
+    Some(((*first).to_owned(), problem))
+}
+
+/// The first name that belongs to no parameter, and what to say about it; nothing if there is none.
+pub fn unexpected(left: &BTreeSet<String>) -> Option<(String, String)> {
+    let names: Vec<&str> = left.iter().map(String::as_str).collect();
+    let (first, more) = names.split_first()?;
+    let mut problem = "not of this network".to_owned();
+    if !more.is_empty() {
+        problem += &format!(", and neither are {}", list(more));
+    }
+    Some(((*first).to_owned(), problem))
+}
+
+/// What may have happened to names that are missing.
+fn hint(missing: &[&str], left: &BTreeSet<String>) -> Option<String> {
+    let prefix = missing.iter().find_map(|name| {
+        let prefix = |other: &'_ String| Some(other.strip_suffix(name)?.to_owned());
+        left.iter().filter_map(prefix).find(|prefix| prefix.ends_with('.'))
+    });
+    if let Some(prefix) = prefix {
+        return Some(format!("strip the prefix `{prefix}` from the names, as convert_weights.py"));
+    }
+    let minkowski = |name: &str| name.contains(".bn.");
+    if missing.iter().any(|name| minkowski(name)) {
+        let ours = |name: &&str| left.contains(&name.replacen(".bn.", ".", 1));
+        let is_ours = missing.iter().any(ours);
+        return is_ours.then(|| "these are eyebolt's own names: use from_bytes".into());
+    }
+    let is_theirs = left.iter().any(|name| minkowski(name));
+    is_theirs.then(|| "names with `.bn.` are MinkowskiEngine's: use from_minkowski".into())
+}
+
+fn list(names: &[&str]) -> String {
+    let listed = names[..names.len().min(LISTED)].join(", ");
+    match names.len().saturating_sub(LISTED) {
+        0 => listed,
+        more => format!("{listed} and {more} more"),
+    }
+}
