@@ -20,7 +20,7 @@ const IGNORE: u32 = u32::MAX;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let folder = std::path::PathBuf::from(arguments.next().ok_or("give FOLDER [STEPS]")?);
-    let steps: u64 = arguments.next().map_or(Ok(60), |text| text.parse())?;
+    let steps: u64 = arguments.next().map_or(Ok(100), |text| text.parse())?;
 
     let mut net = MinkUNet::named("minkunet14a", 1, 2)?;
     // An eighth of the published channels is plenty for two shapes.
@@ -55,7 +55,7 @@ fn main() -> Result<(), Failure> {
     let model = Model::new(description.clone(), trainer.parameters().clone())?;
     let (mut right, mut total) = (0, 0);
     // Scenes that it has not seen.
-    for seed in 1_000_000..1_000_005 {
+    for seed in 1_000_000..1_000_020 {
         let (points_m, labels) = scene(seed);
         let logits = model.infer(&mut cpu, &points_m, &ones(points_m.len())?)?;
         let is_box = |row: usize| logits.row(row)[1] > logits.row(row)[0];
