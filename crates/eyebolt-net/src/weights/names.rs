@@ -43,13 +43,15 @@ pub fn unexpected(left: &BTreeSet<String>) -> Option<(String, String)> {
 }
 
 /// What may have happened to names that are missing.
-fn hint(missing: &[&str], left: &BTreeSet<String>) -> Option<String> {
-    let prefix = missing.iter().find_map(|name| {
-        let prefix = |other: &'_ String| Some(other.strip_suffix(name)?.to_owned());
-        left.iter().filter_map(prefix).find(|prefix| prefix.ends_with('.'))
-    });
-    if let Some(prefix) = prefix {
-        return Some(format!("strip the prefix `{prefix}` from the names, as convert_weights.py"));
+fn hint<'a>(missing: &[&str], left: &'a BTreeSet<String>) -> Option<String> {
+    // By all that is missing: a single name may end as another does by chance.
+    let all_have =
+        |prefix: &&str| missing.iter().all(|name| left.contains(&format!("{prefix}{name}")));
+    let ending = |other: &'a String| other.strip_suffix(missing.first()?);
+    if let Some(prefix) = left.iter().filter_map(ending).find(all_have) {
+        return Some(format!(
+            "strip the prefix `{prefix}` from the names, as convert_weights.py does"
+        ));
     }
     let minkowski = |name: &str| name.contains(".bn.");
     if missing.iter().any(|name| minkowski(name)) {
