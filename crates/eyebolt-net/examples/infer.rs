@@ -2,17 +2,28 @@
 //!
 //! FOLDER holds a `model.toml` and `weights.safetensors` as the example `train` writes them;
 //! POINTS.txt three numbers a line, metres. Without points it makes some up.
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use eyebolt_net::models::Model;
 use eyebolt_net::{Cpu, Matrix};
+use std::process::ExitCode;
 
 #[path = "shapes/scene.rs"]
 mod scene;
 
 type Failure = Box<dyn std::error::Error>;
 
-fn main() -> Result<(), Failure> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let folder = std::path::PathBuf::from(arguments.next().ok_or("give FOLDER [POINTS.txt]")?);
     let text = std::fs::read_to_string(folder.join("model.toml"))?;

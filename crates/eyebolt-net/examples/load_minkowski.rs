@@ -4,13 +4,24 @@
 //!
 //! `convert_weights.py` beside this crate's `Cargo.toml` makes WEIGHTS.safetensors of a `.pth` file.
 //! Ours end up beside it, as WEIGHTS.eyebolt.safetensors.
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use eyebolt_net::models::MinkUNet;
 use eyebolt_net::weights;
 use std::path::Path;
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [name, path, inputs, outputs] = &arguments[..] else {
         return Err("give NAME WEIGHTS.safetensors INPUTS OUTPUTS".into());

@@ -15,7 +15,11 @@
 //! | batch norms | `bn0.weight` | `bn0.bn.weight`, and `bn0.bn.num_batches_tracked` |
 //! | linear layers | `head.0.weight`, `[inputs, outputs]` | `head.0.linear.weight` or `head.0.weight`, `[outputs, inputs]` |
 //!
-//! A weight of two dimensions is thus always transposed, square or not, as PyTorch's own are; one
+//! Offsets themselves are the same: around the voxel where a kernel is odd, from the voxel on where
+//! it is even, and back where it is transposed; tests hold whole networks and single operations of
+//! MinkowskiEngine 0.5.4 against ours.
+//!
+//! A weight of two dimensions is always transposed, square or not, as PyTorch's own are; one
 //! that is `[inputs, outputs]` already belongs into a file of our layout.
 //!
 //! Published weights are pickles of PyTorch, with or without `state_dict` around them and `module.`

@@ -6,6 +6,7 @@ mod executors;
 mod fixtures;
 mod gradients;
 mod learning;
+mod minkowski;
 mod model_files;
 mod pytorch_minkunet;
 mod pytorch_operations;
