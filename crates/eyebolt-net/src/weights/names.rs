@@ -6,29 +6,35 @@ use std::collections::BTreeSet;
 /// Names that are listed; of more than these, their number.
 const LISTED: usize = 3;
 
-/// The first name that is missing, and what to say about it; nothing if every parameter is there.
-pub fn missing(entries: &[Entry], left: &BTreeSet<String>) -> Option<(String, String)> {
+/// What to say about the first parameter that is missing: which others are, and what there is that
+/// nobody asked for.
+pub fn missing(entries: &[Entry], all: &BTreeSet<String>) -> String {
     let missing: Vec<&str> = entries
         .iter()
-        .filter(|entry| entry.name_in(left).is_none())
+        .filter(|entry| entry.name_in(all).is_none())
         .map(|entry| entry.forms[0].name.as_str())
         .collect();
-    let (first, more) = missing.split_first()?;
-    let wanted: BTreeSet<&str> = entries.iter().filter_map(|entry| entry.name_in(left)).collect();
+    let wanted: BTreeSet<&str> = entries.iter().filter_map(|entry| entry.name_in(all)).collect();
+    // Copies, such as an optimiser's memory in a checkpoint, would only repeat the others.
+    let is_copy =
+        |name: &str| name.split_once('.').is_some_and(|(_, original)| all.contains(original));
+    let others = all.iter().map(String::as_str);
     let others: Vec<&str> =
-        left.iter().map(String::as_str).filter(|name| !wanted.contains(name)).collect();
+        others.filter(|name| !wanted.contains(name) && !is_copy(name)).collect();
     let mut problem = "missing".to_owned();
-    if !more.is_empty() {
+    if let [_, more @ ..] = &missing[..]
+        && !more.is_empty()
+    {
         problem += &format!(", as are {}", list(more));
     }
     match others[..] {
         [] => problem += "; the file has nothing in their place",
         _ => problem += &format!("; there instead: {}", list(&others)),
     }
-    if let Some(hint) = hint(&missing, left) {
+    if let Some(hint) = hint(&missing, all) {
         problem += &format!("; {hint}");
     }
-    Some(((*first).to_owned(), problem))
+    problem
 }
 
 /// The first name that belongs to no parameter, and what to say about it; nothing if there is none.

@@ -51,21 +51,25 @@ impl<'a> Tensors<'a> {
     ) -> Result<Vec<Vec<f32>>, Error> {
         let specs = graph.parameters().iter();
         let entries: Vec<Entry> = specs.map(|spec| entry(spec).prefixed(prefix)).collect();
-        // All names before any values, so that an error can say everything that is missing.
-        if let Some((name, problem)) = names::missing(&entries, &self.left) {
-            return Err(Error::file(self.file, name, problem));
-        }
-        entries.iter().map(|entry| self.take(entry)).collect()
+        let all = self.left.clone();
+        entries.iter().map(|entry| self.take(entry, &entries, &all)).collect()
     }
 
-    fn take(&mut self, entry: &Entry) -> Result<Vec<f32>, Error> {
-        let name = entry.name_in(&self.left).unwrap_or(&entry.forms[0].name);
+    /// One of the entries that are asked for, of all names that there were at first.
+    fn take(
+        &mut self,
+        entry: &Entry,
+        entries: &[Entry],
+        all: &BTreeSet<String>,
+    ) -> Result<Vec<f32>, Error> {
+        let name = entry.name_in(all).unwrap_or(&entry.forms[0].name);
         let problem = match self.look_up(entry)? {
             Found::Values(values) => return Ok(values),
             Found::OtherShape(shape) => {
                 format!("shape {shape:?}; the network has {}", entry.shapes(name))
             }
-            Found::Missing => "two parameters of the network share this tensor".into(),
+            Found::Missing if all.contains(name) => "two parameters of the network share it".into(),
+            Found::Missing => names::missing(entries, all),
         };
         Err(Error::file(self.file, name, problem))
     }

@@ -107,10 +107,9 @@ const FROM_DOWN2: [Operation; 2] = [("up3", 3, 1, 2, 1, 4, false), ("up2", 2, 1,
 
 #[test]
 fn single_operations() {
-    let (fixture, cells, features) = values();
     let mut g = GraphBuilder::new();
     let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 3);
-    let mut outputs: Vec<(&str, Option<u32>, NodeId)> = Vec::new();
+    let mut outputs: Vec<Output> = Vec::new();
     let mut add = |g: &mut GraphBuilder, x, (name, size, dilation, from, to, channels, bias)| {
         let spec = KernelSpec { kernel: Kernel { size, dilation }, from, to };
         let node = g.convolution(name, x, spec, channels, bias).unwrap();
@@ -126,6 +125,14 @@ fn single_operations() {
         ("mean", None, g.combine("mean", x, MapSpec::Means(domain)).unwrap()),
         ("largest", None, g.max_pool("largest", x, MapSpec::Items(domain)).unwrap()),
     ]);
+    compare_operations(g, outputs);
+}
+
+/// Name, stride of the voxels that it is on if it is on any, node.
+type Output = (&'static str, Option<u32>, NodeId);
+
+fn compare_operations(g: GraphBuilder, outputs: Vec<Output>) {
+    let (fixture, cells, features) = values();
     let ids: Vec<NodeId> = outputs.iter().map(|&(.., node)| node).collect();
     let graph = g.finish(&ids).unwrap();
     let batch = Batch::from_voxels(&graph, &cells, &features).unwrap();

@@ -1,7 +1,8 @@
 //! State dicts of MinkowskiEngine, and what is said of names that do not fit.
 
 use crate::weights::{Stored, file, graph, network, stored};
-use eyebolt_net::models::Head;
+use eyebolt_net::models::{Head, MinkUNet};
+use eyebolt_net::training::{Rule, Schedule, Trainer};
 use eyebolt_net::weights::{self, Layout, load_matching};
 use eyebolt_net::{Graph, Parameters};
 use safetensors::Dtype;
@@ -116,6 +117,18 @@ fn shapes_and_names_of_others_are_told_with_a_remedy() {
     let shape = said(weights::from_minkowski(&graph, &file(&other)));
     let expected = "final.kernel: shape [3, 1, 3]; the network has [1, 3, 3] or [3, 3]";
     assert!(shape.ends_with(expected), "{shape}");
+}
+
+#[test]
+fn of_a_checkpoint_parameters_are_told_not_the_optimisers_copies() {
+    let cut = MinkUNet { layers: [1, 1, 1, 1, 1, 1, 1, 2], ..network() }.graph().unwrap();
+    let trainer = Trainer::new(&cut, Rule::adam(0.0), Schedule::Constant { rate: 0.1 }, 0);
+    let checkpoint = trainer.checkpoint(&cut).unwrap();
+    let more = MinkUNet { layers: [1, 1, 1, 1, 1, 1, 2, 1], ..network() }.graph().unwrap();
+    let resumed = Trainer::resume(&more, &checkpoint).unwrap_err().to_string();
+    assert!(resumed.contains("block7.1.conv1.kernel: missing, as are block7.1.norm1"), "{resumed}");
+    assert!(resumed.contains("there instead: block8.1.conv1.kernel, "), "{resumed}");
+    assert!(resumed.ends_with(" and 7 more"), "{resumed}");
 }
 
 #[test]
