@@ -8,7 +8,7 @@ fuzz_target!(|text: &str| {
     let Ok(model) = ModelDescription::from_toml(text) else { return };
     let again = model.to_toml().expect("what was read can be written");
     assert!(ModelDescription::from_toml(&again).expect("its own text") == model);
-    let Ok(graph) = model.architecture.graph() else { return };
+    let Ok(graph) = model.graph() else { return };
     assert!(!graph.outputs().is_empty());
     assert!(graph.parameters().iter().all(|spec| !spec.name.is_empty()));
 });

@@ -86,3 +86,8 @@ pub use matrix::Matrix;
 pub use parameters::Parameters;
 pub use row_map::{RowMap, Runs};
 pub use simd::Isa;
+
+/// The examples of the README are tested as those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -7,8 +7,10 @@
 
 mod description;
 mod minkunet;
+mod model;
 mod pointnet2;
 
-pub use description::{Architecture, Model, ModelDescription};
+pub use description::{Architecture, ModelDescription};
 pub use minkunet::{Block, Head, MinkEncoder, MinkUNet};
+pub use model::Model;
 pub use pointnet2::{Abstraction, PointNet2, Scale, Task};

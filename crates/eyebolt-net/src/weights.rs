@@ -1,19 +1,63 @@
 //! Weights as safetensors: ours, and state dicts of MinkowskiEngine.
 //!
 //! Ours hold every parameter of the graph under its name, with its shape. Kernels are
-//! `[offsets, inputs, outputs]`, offsets with z fastest.
+//! `[offsets, inputs, outputs]`, offsets with z fastest; linear layers `[inputs, outputs]`.
 //!
-//! MinkowskiEngine's differ in three ways, which [`from_minkowski`] undoes: offsets have x fastest;
-//! batch norms are called `bn0.bn.weight` where ours are `bn0.weight`, and count their batches;
-//! kernels of one voxel are `[inputs, outputs]` and biases `[1, outputs]`. A published `.pth` file
-//! becomes safetensors by `safetensors.torch.save_file(torch.load(path)["state_dict"], ...)`.
+//! # Of MinkowskiEngine
+//!
+//! Its state dicts differ, which [`from_minkowski`] undoes:
+//!
+//! | | ours | MinkowskiEngine's |
+//! |---|---|---|
+//! | kernels | `conv0p1s1.kernel`, z fastest | the same name and shape, x fastest |
+//! | of one voxel | `[1, inputs, outputs]` | or `[inputs, outputs]` |
+//! | their biases | `[outputs]` | or `[1, outputs]` |
+//! | batch norms | `bn0.weight` | `bn0.bn.weight`, and `bn0.bn.num_batches_tracked` |
+//! | linear layers | `head.0.weight`, `[inputs, outputs]` | `head.0.linear.weight` or `head.0.weight`, `[outputs, inputs]` |
+//!
+//! Offsets themselves are the same: around the voxel where a kernel is odd, from the voxel on where
+//! it is even, and back where it is transposed; tests hold whole networks and single operations of
+//! MinkowskiEngine 0.5.4 against ours.
+//!
+//! A weight of two dimensions is always transposed, square or not, as PyTorch's own are; one
+//! that is `[inputs, outputs]` already belongs into a file of our layout.
+//!
+//! Published weights are pickles of PyTorch, with or without `state_dict` around them and `module.`
+//! before every name. This script, `convert_weights.py` beside this crate's `Cargo.toml`, makes
+//! safetensors of them:
+//!
+//! ```python
+#![doc = include_str!("../convert_weights.py")]
+//! ```
+//!
+//! These lines then load them:
+//!
+//! ```no_run
+//! use eyebolt_net::{models::MinkUNet, weights};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // Three features a voxel and twenty classes, as the weights have them.
+//! let graph = MinkUNet::named("minkunet34c", 3, 20)?.graph()?;
+//! let parameters = weights::from_minkowski(&graph, &std::fs::read("weights.safetensors")?)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! With other classes, or the encoder alone, [`load_matching`] takes what fits.
 
-mod minkowski;
+mod entry;
+mod layout;
+mod matching;
+mod names;
 mod numbers;
 mod tensors;
+mod written;
 
-pub use minkowski::from_minkowski;
-pub(crate) use tensors::{Entry, Tensors, entries, serialise};
+pub(crate) use entry::Entry;
+pub use layout::Layout;
+pub use matching::{Matching, OtherShape, load_matching};
+pub(crate) use tensors::Tensors;
+pub(crate) use written::{entries, serialise};
 
 use crate::{Error, Graph, Parameters};
 
@@ -22,8 +66,11 @@ const FILE: &str = "weights.safetensors";
 /// The parameters as safetensors of 32 bits.
 ///
 /// # Errors
-/// If the graph is another one.
+/// If the graph is another one, or a value is not finite: what is written can be read.
 pub fn to_bytes(graph: &Graph, parameters: &Parameters) -> Result<Vec<u8>, Error> {
+    for (spec, values) in graph.parameters().iter().zip(parameters.values()) {
+        numbers::check_finite(FILE, &spec.name, values)?;
+    }
     serialise(FILE, entries(graph, "", parameters.values())?, &[])
 }
 
@@ -33,8 +80,21 @@ pub fn to_bytes(graph: &Graph, parameters: &Parameters) -> Result<Vec<u8>, Error
 /// If the bytes are no safetensors, a parameter is missing, has another shape, another type or a
 /// value that is not finite, or there is a tensor more.
 pub fn from_bytes(graph: &Graph, bytes: &[u8]) -> Result<Parameters, Error> {
-    let mut tensors = Tensors::read(FILE, bytes)?;
-    let values = tensors.take_all(graph, "", Entry::plain)?;
+    complete(graph, bytes, Layout::Eyebolt)
+}
+
+/// The parameters of a graph from a state dict of MinkowskiEngine as safetensors; how it differs
+/// from ours stands at the head of [this module](self).
+///
+/// # Errors
+/// As [`from_bytes`].
+pub fn from_minkowski(graph: &Graph, bytes: &[u8]) -> Result<Parameters, Error> {
+    complete(graph, bytes, Layout::MinkowskiEngine)
+}
+
+fn complete(graph: &Graph, bytes: &[u8], layout: Layout) -> Result<Parameters, Error> {
+    let mut tensors = layout.open(bytes)?;
+    let values = tensors.take_all(graph, "", |spec| layout.entry(spec))?;
     tensors.finish()?;
     Parameters::new(graph, values)
 }

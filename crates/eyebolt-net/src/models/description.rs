@@ -1,11 +1,12 @@
 //! `model.toml`: all that is needed to use weights.
 
 use super::{MinkEncoder, MinkUNet, PointNet2};
-use crate::{Error, Graph, Parameters, weights};
+use crate::graph::{Domain, Source};
+use crate::{Error, Graph};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-const FILE: &str = "model.toml";
+pub(super) const FILE: &str = "model.toml";
 
 /// Which network.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,11 +38,11 @@ impl Architecture {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelDescription {
-    /// Edge of a voxel; none of networks on points.
+    /// Edge of a voxel; of networks on voxels, and of no others.
     pub voxel_m: Option<f32>,
     /// Names of the features, one for each input channel.
     pub features: Vec<String>,
-    /// Names of the classes or other outputs.
+    /// Names of the classes or other outputs, one for each output channel.
     pub classes: Vec<String>,
     /// The frame that coordinates are in.
     pub frame: String,
@@ -80,35 +81,35 @@ impl ModelDescription {
     pub fn to_toml(&self) -> Result<String, Error> {
         toml::to_string(self).map_err(|error| Error::file(FILE, "content", error.to_string()))
     }
-}
 
-/// A network with its weights, ready to be used.
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// What it is.
-    pub description: ModelDescription,
-    /// Its operations.
-    pub graph: Graph,
-    /// Its weights.
-    pub parameters: Parameters,
-}
-
-impl Model {
-    /// From the text of `model.toml` and the bytes of `weights.safetensors`.
+    /// The graph of the architecture, if everything else is said of that one.
     ///
     /// # Errors
-    /// If either is broken, or they do not belong together: loading is complete or an error.
-    pub fn load(description: &str, weight_bytes: &[u8]) -> Result<Self, Error> {
-        let description = ModelDescription::from_toml(description)?;
-        let graph = description.architecture.graph()?;
-        let channels = graph.inputs().find_map(|(_, node, source)| {
-            (source == crate::graph::Source::Features).then_some(node.channels)
-        });
-        if channels != Some(description.features.len()) {
-            let problem = format!("{} names for {channels:?} channels", description.features.len());
-            return Err(Error::file(FILE, "features", problem));
+    /// If the architecture makes no network, there is not one name for each channel in and out, or
+    /// `voxel_m` is missing of a network on voxels or there for one on points.
+    pub fn graph(&self) -> Result<Graph, Error> {
+        let graph = self.architecture.graph()?;
+        let features = graph.inputs().filter(|(.., source)| *source == Source::Features);
+        let inputs = features.map(|(_, node, _)| node.channels).sum();
+        check_names("features", self.features.len(), inputs)?;
+        let outputs = graph.outputs().iter().map(|id| graph.nodes()[id.index()].channels).sum();
+        check_names("classes", self.classes.len(), outputs)?;
+        let on_voxels = graph.domains().iter().any(|it| matches!(it, Domain::Voxels { .. }));
+        match self.voxel_m {
+            None if on_voxels => {
+                Err(Error::file(FILE, "voxel_m", "missing; say how large voxels are"))
+            }
+            Some(_) if !on_voxels => {
+                Err(Error::file(FILE, "voxel_m", "the network is on points; leave it out"))
+            }
+            _ => Ok(graph),
         }
-        let parameters = weights::from_bytes(&graph, weight_bytes)?;
-        Ok(Self { description, graph, parameters })
     }
+}
+
+fn check_names(field: &str, names: usize, channels: usize) -> Result<(), Error> {
+    if names == channels {
+        return Ok(());
+    }
+    Err(Error::file(FILE, field, format!("{names} names for the network's {channels} channels")))
 }

@@ -1,5 +1,6 @@
 //! Little-endian numbers to 32 bits and back.
 
+use crate::Error;
 use half::{bf16, f16};
 use safetensors::Dtype;
 
@@ -17,4 +18,12 @@ pub fn decode(dtype: Dtype, bytes: &[u8]) -> Option<Vec<f32>> {
 /// Numbers of 32 bits as bytes.
 pub fn encode(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// That no value of a tensor is NaN or infinite.
+pub fn check_finite(file: &str, name: &str, values: &[f32]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(at) => Err(Error::file(file, name, format!("value {at} is {}", values[at]))),
+        None => Ok(()),
+    }
 }

@@ -1,26 +1,11 @@
 //! Named tensors of a safetensors file, each to be taken once.
 
-use super::numbers;
+use super::entry::{Entry, Form};
+use super::{names, numbers};
 use crate::Error;
 use crate::graph::{Graph, ParameterSpec};
-use safetensors::tensor::TensorView;
-use safetensors::{Dtype, SafeTensors};
+use safetensors::SafeTensors;
 use std::collections::{BTreeSet, HashMap};
-
-/// How a parameter is stored.
-pub(crate) struct Entry {
-    /// Name in the file.
-    pub name: String,
-    /// Shapes that it may have.
-    pub shapes: Vec<Vec<usize>>,
-}
-
-impl Entry {
-    /// Under its own name with its own shape.
-    pub fn plain(spec: &ParameterSpec) -> Self {
-        Self { name: spec.name.clone(), shapes: vec![spec.shape.clone()] }
-    }
-}
 
 /// What is left of a file.
 pub(crate) struct Tensors<'a> {
@@ -28,6 +13,16 @@ pub(crate) struct Tensors<'a> {
     tensors: SafeTensors<'a>,
     metadata: HashMap<String, String>,
     left: BTreeSet<String>,
+}
+
+/// What a file has for a parameter.
+pub(crate) enum Found {
+    /// Its values, in the network's order.
+    Values(Vec<f32>),
+    /// A tensor of this shape, which the parameter may not have.
+    OtherShape(Vec<usize>),
+    /// Nothing.
+    Missing,
 }
 
 impl<'a> Tensors<'a> {
@@ -55,31 +50,50 @@ impl<'a> Tensors<'a> {
         entry: impl Fn(&ParameterSpec) -> Entry,
     ) -> Result<Vec<Vec<f32>>, Error> {
         let specs = graph.parameters().iter();
-        specs
-            .map(|spec| {
-                let entry = entry(spec);
-                self.take(&format!("{prefix}{}", entry.name), &entry.shapes)
-            })
-            .collect()
+        let entries: Vec<Entry> = specs.map(|spec| entry(spec).prefixed(prefix)).collect();
+        let all = self.left.clone();
+        entries.iter().map(|entry| self.take(entry, &entries, &all)).collect()
     }
 
-    fn take(&mut self, name: &str, shapes: &[Vec<usize>]) -> Result<Vec<f32>, Error> {
+    /// One of the entries that are asked for, of all names that there were at first.
+    fn take(
+        &mut self,
+        entry: &Entry,
+        entries: &[Entry],
+        all: &BTreeSet<String>,
+    ) -> Result<Vec<f32>, Error> {
+        let name = entry.name_in(all).unwrap_or(&entry.forms[0].name);
+        let problem = match self.look_up(entry)? {
+            Found::Values(values) => return Ok(values),
+            Found::OtherShape(shape) => {
+                format!("shape {shape:?}; the network has {}", entry.shapes(name))
+            }
+            Found::Missing if all.contains(name) => "two parameters of the network share it".into(),
+            Found::Missing => names::missing(entries, all),
+        };
+        Err(Error::file(self.file, name, problem))
+    }
+
+    /// What there is for a parameter, which is then no longer left.
+    ///
+    /// # Errors
+    /// If it is of the right name and shape, but of another type or not finite.
+    pub fn look_up(&mut self, entry: &Entry) -> Result<Found, Error> {
+        let Some(name) = entry.name_in(&self.left) else {
+            return Ok(Found::Missing);
+        };
+        self.left.remove(name);
         let problem = |problem: String| Error::file(self.file, name, problem);
-        if !self.left.remove(name) {
-            return Err(problem("missing, or asked for twice: weights of another network?".into()));
-        }
         let view = self.tensors.tensor(name).map_err(|error| problem(error.to_string()))?;
-        if !shapes.iter().any(|shape| shape == view.shape()) {
-            let wanted = shapes.first();
-            return Err(problem(format!("shape {:?}, not {wanted:?}", view.shape())));
-        }
+        let fits = |form: &&Form| form.name == name && form.shape == view.shape();
+        let Some(form) = entry.forms.iter().find(fits) else {
+            return Ok(Found::OtherShape(view.shape().to_vec()));
+        };
         let values = numbers::decode(view.dtype(), view.data()).ok_or_else(|| {
             problem(format!("type {:?}; only F32, F16 and BF16 are weights", view.dtype()))
         })?;
-        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-            return Err(problem(format!("value {at} is {}", values[at])));
-        }
-        Ok(values)
+        numbers::check_finite(self.file, name, &values)?;
+        Ok(Found::Values(form.in_our_order(values)))
     }
 
     /// Drops what has such a name.
@@ -87,52 +101,16 @@ impl<'a> Tensors<'a> {
         self.left.retain(|name| !drop(name));
     }
 
+    /// Names that nobody asked for.
+    pub fn into_left(self) -> Vec<String> {
+        self.left.into_iter().collect()
+    }
+
     /// That nothing is left.
     pub fn finish(self) -> Result<(), Error> {
-        match self.left.first() {
+        match names::unexpected(&self.left) {
             None => Ok(()),
-            Some(name) => Err(Error::file(
-                self.file,
-                name,
-                format!("not of this network ({} such tensors)", self.left.len()),
-            )),
+            Some((name, problem)) => Err(Error::file(self.file, name, problem)),
         }
     }
-}
-
-/// Name, shape and bytes.
-pub(crate) type Stored = (String, Vec<usize>, Vec<u8>);
-
-/// Values by the graph's names with a prefix.
-pub(crate) fn entries(
-    graph: &Graph,
-    prefix: &str,
-    values: &[Vec<f32>],
-) -> Result<Vec<Stored>, Error> {
-    let specs = graph.parameters();
-    if !values.iter().map(Vec::len).eq(specs.iter().map(ParameterSpec::len)) {
-        return Err(Error::input("parameters", "made for another network"));
-    }
-    let entry = |(spec, values): (&ParameterSpec, &Vec<f32>)| {
-        (format!("{prefix}{}", spec.name), spec.shape.clone(), numbers::encode(values))
-    };
-    Ok(specs.iter().zip(values).map(entry).collect())
-}
-
-/// The bytes of a file. The same ones for the same tensors, in whatever order.
-pub(crate) fn serialise(
-    file: &str,
-    entries: Vec<Stored>,
-    metadata: &[(&str, String)],
-) -> Result<Vec<u8>, Error> {
-    let failed = |error: safetensors::SafeTensorError| Error::file(file, "", error.to_string());
-    let mut views = Vec::new();
-    for (name, shape, bytes) in &entries {
-        let view = TensorView::new(Dtype::F32, shape.clone(), bytes).map_err(failed)?;
-        views.push((name.as_str(), view));
-    }
-    let metadata: HashMap<String, String> =
-        metadata.iter().map(|(key, text)| ((*key).to_owned(), text.clone())).collect();
-    let metadata = (!metadata.is_empty()).then_some(metadata);
-    safetensors::serialize(views, metadata).map_err(failed)
 }

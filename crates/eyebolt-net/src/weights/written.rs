@@ -1,0 +1,45 @@
+//! Tensors to the bytes of a safetensors file.
+
+use super::numbers;
+use crate::Error;
+use crate::graph::{Graph, ParameterSpec};
+use safetensors::Dtype;
+use safetensors::tensor::TensorView;
+use std::collections::HashMap;
+
+/// Name, shape and bytes.
+pub(crate) type Stored = (String, Vec<usize>, Vec<u8>);
+
+/// Values by the graph's names with a prefix.
+pub(crate) fn entries(
+    graph: &Graph,
+    prefix: &str,
+    values: &[Vec<f32>],
+) -> Result<Vec<Stored>, Error> {
+    let specs = graph.parameters();
+    if !values.iter().map(Vec::len).eq(specs.iter().map(ParameterSpec::len)) {
+        return Err(Error::input("parameters", "made for another network"));
+    }
+    let entry = |(spec, values): (&ParameterSpec, &Vec<f32>)| {
+        (format!("{prefix}{}", spec.name), spec.shape.clone(), numbers::encode(values))
+    };
+    Ok(specs.iter().zip(values).map(entry).collect())
+}
+
+/// The bytes of a file. The same ones for the same tensors, in whatever order.
+pub(crate) fn serialise(
+    file: &str,
+    entries: Vec<Stored>,
+    metadata: &[(&str, String)],
+) -> Result<Vec<u8>, Error> {
+    let failed = |error: safetensors::SafeTensorError| Error::file(file, "", error.to_string());
+    let mut views = Vec::new();
+    for (name, shape, bytes) in &entries {
+        let view = TensorView::new(Dtype::F32, shape.clone(), bytes).map_err(failed)?;
+        views.push((name.as_str(), view));
+    }
+    let metadata: HashMap<String, String> =
+        metadata.iter().map(|(key, text)| ((*key).to_owned(), text.clone())).collect();
+    let metadata = (!metadata.is_empty()).then_some(metadata);
+    safetensors::serialize(views, metadata).map_err(failed)
+}
