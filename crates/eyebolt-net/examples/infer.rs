@@ -45,11 +45,7 @@ fn run() -> Result<(), Failure> {
     let logits = model.infer(&mut Cpu::new(), &points_m, &ones)?;
 
     let mut counts = vec![0; logits.channels()];
-    for row in 0..logits.rows() {
-        let row = logits.row(row);
-        let best = (0..row.len()).max_by(|&a, &b| row[a].total_cmp(&row[b]));
-        counts[best.ok_or("the model has no classes")?] += 1;
-    }
+    logits.argmax().into_iter().for_each(|class| counts[class as usize] += 1);
     for (class, count) in model.description.classes.iter().zip(counts) {
         println!("{class}: {count} of {}", logits.rows());
     }

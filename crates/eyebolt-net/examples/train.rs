@@ -20,6 +20,9 @@ const IGNORE: u32 = u32::MAX;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let folder = std::path::PathBuf::from(arguments.next().ok_or("give FOLDER [STEPS]")?);
+    if folder.join("model.toml").exists() {
+        return Err(format!("{} holds a model already; give another", folder.display()).into());
+    }
     let steps: u64 = arguments.next().map_or(Ok(100), |text| text.parse())?;
 
     let mut net = MinkUNet::named("minkunet14a", 1, 2)?;
@@ -58,8 +61,8 @@ fn main() -> Result<(), Failure> {
     for seed in 1_000_000..1_000_020 {
         let (points_m, labels) = scene(seed);
         let logits = model.infer(&mut cpu, &points_m, &ones(points_m.len())?)?;
-        let is_box = |row: usize| logits.row(row)[1] > logits.row(row)[0];
-        right += (0..labels.len()).filter(|&row| is_box(row) == (labels[row] == 1)).count();
+        let classes = logits.argmax();
+        right += classes.iter().zip(&labels).filter(|(found, label)| found == label).count();
         total += labels.len();
     }
     let accuracy = right as f64 / total as f64;
