@@ -25,7 +25,7 @@ impl Trainer {
     /// `second.NAME`, the rest in the metadata. Write it beside the old one, then rename.
     ///
     /// # Errors
-    /// If the graph is another one.
+    /// If the graph is another one, or a value is not finite.
     pub fn checkpoint(&self, graph: &Graph) -> Result<Vec<u8>, Error> {
         let state = State {
             rule: self.optimiser.rule,
@@ -36,10 +36,10 @@ impl Trainer {
         };
         let text = toml::to_string(&state);
         let text = text.map_err(|error| Error::file(FILE, STATE, error.to_string()))?;
-        let mut entries = weights::entries(graph, "", self.parameters.values())?;
-        entries.extend(weights::entries(graph, "first.", &self.optimiser.first)?);
+        let mut entries = weights::entries(FILE, graph, "", self.parameters.values())?;
+        entries.extend(weights::entries(FILE, graph, "first.", &self.optimiser.first)?);
         if !self.optimiser.second.is_empty() {
-            entries.extend(weights::entries(graph, "second.", &self.optimiser.second)?);
+            entries.extend(weights::entries(FILE, graph, "second.", &self.optimiser.second)?);
         }
         weights::serialise(FILE, entries, &[(STATE, text)])
     }

@@ -3,6 +3,9 @@
 use crate::Error;
 use serde::{Deserialize, Serialize};
 
+/// More than any rate of use, and less than what would throw weights beyond 32 bits.
+const LARGEST: f64 = 1e6;
+
 /// The learning rate over the steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -37,15 +40,15 @@ impl Schedule {
     /// That every rate is a number.
     ///
     /// # Errors
-    /// If the rate or its factor is negative or not finite.
+    /// If the rate or its factor is negative, not finite, or so large that steps would leave 32 bits.
     pub fn check(self) -> Result<(), Error> {
         let (rate, factor) = match self {
             Self::Constant { rate } | Self::Cosine { rate, .. } => (rate, 1.0),
             Self::Steps { rate, factor, .. } => (rate, factor),
         };
         for (name, value) in [("rate", rate), ("factor", factor)] {
-            if !(value.is_finite() && value >= 0.0) {
-                let problem = format!("{value} is negative or not a number");
+            if !(0.0..=LARGEST).contains(&value) {
+                let problem = format!("{value} is not from 0 to {LARGEST}");
                 return Err(Error::input(name, problem));
             }
         }

@@ -10,8 +10,10 @@ use std::collections::HashMap;
 /// Name, shape and bytes.
 pub(crate) type Stored = (String, Vec<usize>, Vec<u8>);
 
-/// Values by the graph's names with a prefix.
+/// Values by the graph's names with a prefix; all of them finite, so that what is written can be
+/// read.
 pub(crate) fn entries(
+    file: &str,
     graph: &Graph,
     prefix: &str,
     values: &[Vec<f32>],
@@ -21,9 +23,11 @@ pub(crate) fn entries(
         return Err(Error::input("parameters", "made for another network"));
     }
     let entry = |(spec, values): (&ParameterSpec, &Vec<f32>)| {
-        (format!("{prefix}{}", spec.name), spec.shape.clone(), numbers::encode(values))
+        let name = format!("{prefix}{}", spec.name);
+        numbers::check_finite(file, &name, values)?;
+        Ok((name, spec.shape.clone(), numbers::encode(values)))
     };
-    Ok(specs.iter().zip(values).map(entry).collect())
+    specs.iter().zip(values).map(entry).collect()
 }
 
 /// The bytes of a file. The same ones for the same tensors, in whatever order.

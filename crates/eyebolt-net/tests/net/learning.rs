@@ -148,6 +148,7 @@ fn steps_that_would_spoil_a_network_change_nothing() {
     assert_eq!(large, before);
     for (rule, schedule, name) in [
         (Rule::adam(0.0), Schedule::Constant { rate: f64::NAN }, "rate: NaN"),
+        (Rule::adam(0.0), Schedule::Constant { rate: 1e300 }, "rate: 1"),
         (Rule::adam(-1.0), Schedule::Constant { rate: 0.1 }, "weight_decay: -1"),
         (
             Rule::Sgd { momentum: 1.0, weight_decay: 0.0 },
