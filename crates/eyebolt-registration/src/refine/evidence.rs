@@ -3,7 +3,7 @@
 use super::RefineView;
 use super::weighing::Scales;
 use crate::arm::ArmModel;
-use crate::factors::{Factor, State, outline_factor, surface_factor};
+use crate::factors::{Factor, PosedArm, State, outline_factor, surface_factor};
 use crate::robust::median;
 use eyebolt_render::{Raster, outer_contour};
 use rayon::prelude::*;
@@ -41,17 +41,18 @@ fn gather_one(
     raster: &mut Raster,
     state: &State,
 ) -> Evidence {
-    let (camera, posture) = (view.view.camera, view.view.posture);
+    let camera = view.view.camera;
+    let posture = &view.view.posture.moved(arm, &state.joint_offsets);
+    let posed = PosedArm { arm, posture, state };
     raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
     let cracks = outer_contour(raster, camera);
     let stride = cracks.len().div_ceil(CONTOUR_POINTS).max(1);
     let outline = cracks
         .iter()
         .step_by(stride)
-        .filter_map(|crack| outline_factor(camera, &view.silhouette, state, crack))
+        .filter_map(|crack| outline_factor(&posed, camera, &view.silhouette, crack))
         .collect();
-    let surface =
-        view.arm_points.iter().filter_map(|p| surface_factor(arm, posture, state, p)).collect();
+    let surface = view.arm_points.iter().filter_map(|p| surface_factor(&posed, p)).collect();
     Evidence {
         surface,
         outline,

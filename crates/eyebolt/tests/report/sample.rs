@@ -43,6 +43,7 @@ pub fn without_pose(ran: &Ran, reasons: Vec<Reason>) -> (Answer, Outcome) {
     outcome.calibration = Calibration::without_pose(outcome.calibration.verdict.clone());
     outcome.session = None;
     answer.configurations.clear();
+    answer.joint_offsets.clear();
     (answer.camera_from_base, answer.base_from_camera) = (None, None);
     (answer.expected_error, answer.workspace_in_base_m) = (None, None);
     (answer.leave_one_out, answer.disagreement, answer.covariance) = (None, None, None);

@@ -135,6 +135,13 @@ fn evidence(answer: &Answer, notes: &mut Vec<String>) {
             100.0 * scale
         ));
     }
+    for joint in answer.joint_offsets.iter().filter(|joint| joint.is_notable()) {
+        note(format!(
+            "{} seems to stand {:+.2} ± {:.2} degrees from where it says: check its zero, and that the \
+             robot description is this arm's. The answer allows for it.",
+            joint.joint, joint.offset_deg, joint.sigma_deg
+        ));
+    }
     if let Some(px) = answer.outline_excess_px.filter(|px| px.abs() > NOTABLE_EXCESS_PX) {
         note(format!(
             "The outline seen is {:.1} pixels {} than the arm's on each side: masks, or depth at edges, \
