@@ -28,6 +28,8 @@ pub(crate) struct Factor {
     pub jacobian: SVector<f64, UNKNOWNS>,
     /// The link that the evidence is about.
     pub link: usize,
+    /// Whether that link stands still while the joints move: every view shows the same of it.
+    pub still: bool,
 }
 
 /// What the unknowns are now.
@@ -69,17 +71,20 @@ pub(crate) struct PosedArm<'a> {
 
 impl PosedArm<'_> {
     /// Sets the derivatives of `gradient . point` by the angles of the joints above `link`, which
-    /// carries the point; both in the base frame.
+    /// carries the point; both in the base frame. Whether the arm has joints, but none there.
     fn by_joints(
         &self,
         link: usize,
         gradient: &Vector3<f64>,
         point: &Point3<f64>,
         jacobian: &mut SVector<f64, UNKNOWNS>,
-    ) {
+    ) -> bool {
+        let mut still = !self.arm.joints().is_empty();
         for (joint, axis) in self.posture.axes_above(self.arm, link) {
             jacobian[FIRST_JOINT + joint] = axis.derivative(gradient, point);
+            still = false;
         }
+        still
     }
 }
 
@@ -112,8 +117,9 @@ pub(crate) fn surface_factor(
     let mut jacobian = SVector::<f64, UNKNOWNS>::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
     jacobian[DEPTH_SCALE] = normal.dot(&seen);
-    posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
-    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
+    let still =
+        posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
+    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link, still })
 }
 
 /// Distance in the image of a point of the posed arm's contour from the outline seen.
@@ -139,9 +145,9 @@ pub(crate) fn outline_factor(
     jacobian[OUTLINE_WIDTH] = 1.0;
     let link = contour.link as usize;
     let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
-    posed.by_joints(link, &along, &at, &mut jacobian);
+    let still = posed.by_joints(link, &along, &at, &mut jacobian);
     let residual = f64::from(distance) + posed.state.outline_px;
-    Some(Factor { residual, jacobian, link })
+    Some(Factor { residual, jacobian, link, still })
 }
 
 #[cfg(test)]
@@ -280,7 +286,7 @@ mod tests {
                 outline_factor(&posed(&arm, &moved, s), &camera, &silhouette, &contour).unwrap()
             };
             let factor = at(&state);
-            let true_px = if upright { u - 29.5 } else { v - 19.5 } + posed.state.outline_px;
+            let true_px = if upright { u - 29.5 } else { v - 19.5 } + state.outline_px;
             prop_assert!((factor.residual - true_px).abs() < 1e-4);
             prop_assert_eq!(factor.link, 0);
             let numeric = numeric(&state, |s| at(s).residual);

@@ -49,12 +49,12 @@ pub struct RefineOptions {
 /// What is known beforehand of how far off joints are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointPrior {
-    /// Off by this standard deviation, radians.
+    /// Each by this standard deviation.
     Known {
-        /// The deviation.
-        rad: f64,
+        /// The deviations, radians.
+        rad: [f64; MOST_JOINTS],
     },
-    /// All by the same deviation, which the data tell.
+    /// All by the same deviation, which the data tell, but for joints that stand out.
     Estimated,
 }
 
@@ -115,8 +115,8 @@ pub struct Refinement {
     pub joint_offsets: JointOffsets,
     /// Standard deviation of each of them, radians; infinite where nothing is determined.
     pub joint_sigma_rad: [f64; MOST_JOINTS],
-    /// Prior deviation of the joints' offsets, radians.
-    pub joint_prior_rad: f64,
+    /// Prior deviation of each of them that this came with, radians.
+    pub joint_prior_rad: [f64; MOST_JOINTS],
     /// True depth is `1 + depth_scale` times the depth seen, as far as the data tell.
     pub depth_scale: f64,
     /// By how many pixels the outline seen is wider than the arm.

@@ -109,7 +109,8 @@ pub fn calibrate(
     progress.begin(Step::Calibrate);
     work.measure(&refinement, &mut outcomes);
     let error = error::estimate(&mut work, &refinement, &observed);
-    let rival = choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &refinement.end()));
+    let rival =
+        choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &refinement.end()));
     let evidence = verdict::Evidence {
         refinement: &refinement,
         outcomes: &outcomes,

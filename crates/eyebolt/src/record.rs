@@ -144,8 +144,11 @@ pub fn open(
             depth: read.depth,
             mask: read.mask,
             base_from_end_effector: groups[*group].first.base_from_end_effector,
-            posture: Posture::new(&model, postures[*group].clone())
-                .with_axes(joints::axes(arm, &joints, &groups[*group].first.base_from_links)),
+            posture: Posture::new(&model, postures[*group].clone()).with_axes(joints::axes(
+                arm,
+                &joints,
+                &groups[*group].first.base_from_links,
+            )),
         })
     });
     // Collected first: of several errors the first is reported, whichever thread met it.

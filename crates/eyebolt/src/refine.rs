@@ -3,7 +3,7 @@
 use crate::label::{arm_points, labels_at};
 use crate::session::Session;
 use eyebolt_registration::{
-    JointPrior, RefineOptions, RefineView, Refinement, Silhouette, Start, Trust, View,
+    JointPrior, MOST_JOINTS, RefineOptions, RefineView, Refinement, Silhouette, Start, Trust, View,
 };
 use eyebolt_render::Raster;
 use rayon::prelude::*;
@@ -12,10 +12,11 @@ use rayon::prelude::*;
 const POINTS: usize = 1200;
 
 /// Centimetres away, joints that are off would be anything.
-const AT_THEIR_WORD: JointPrior = JointPrior::Known { rad: 1e-5 };
+const AT_THEIR_WORD: JointPrior = JointPrior::Known { rad: [1e-5; MOST_JOINTS] };
 
 /// From a start that may be centimetres off to one that is within the reach of [`CLOSING`].
-pub const OPENING: &[RefineOptions] = &[RefineOptions { joint_prior: AT_THEIR_WORD, ..options(4, 0.06, 20.0) }];
+pub const OPENING: &[RefineOptions] =
+    &[RefineOptions { joint_prior: AT_THEIR_WORD, ..options(4, 0.06, 20.0) }];
 
 /// From there to the answer.
 pub const CLOSING: &[RefineOptions] = &[options(5, 0.03, 8.0), options(20, 0.02, 4.0)];

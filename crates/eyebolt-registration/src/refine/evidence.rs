@@ -22,6 +22,15 @@ pub(super) struct Evidence {
     /// Points of the arm, and how many pixels each stands for.
     pub points: usize,
     pub pixels_per_point: f64,
+    /// Views in all.
+    pub views: usize,
+}
+
+impl Evidence {
+    /// A link that stands still shows the same in each view, with the same errors: it counts once.
+    pub fn share(&self, factor: &Factor) -> f64 {
+        if factor.still { (self.views as f64).recip() } else { 1.0 }
+    }
 }
 
 /// Residuals of all views at `state`.
@@ -32,7 +41,7 @@ pub(super) fn gather(
     state: &State,
 ) -> Vec<Evidence> {
     let pairs = views.par_iter().zip(rasters.par_iter_mut());
-    pairs.map(|(view, raster)| gather_one(arm, view, raster, state)).collect()
+    pairs.map(|(view, raster)| gather_one(arm, view, raster, state, views.len())).collect()
 }
 
 fn gather_one(
@@ -40,6 +49,7 @@ fn gather_one(
     view: &RefineView<'_>,
     raster: &mut Raster,
     state: &State,
+    views: usize,
 ) -> Evidence {
     let camera = view.view.camera;
     let posture = &view.view.posture.moved(arm, &state.joint_offsets);
@@ -59,6 +69,7 @@ fn gather_one(
         cracks_per_factor: stride as f64,
         points: view.arm_points.len(),
         pixels_per_point: view.pixels_per_point,
+        views,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::evidence::Evidence;
 use super::weighing::{Scales, Weighing};
 use super::{Refinement, StopReason, ViewFit};
-use crate::factors::{FIRST_JOINT, State, UNKNOWNS};
+use crate::factors::{FIRST_JOINT, Factor, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::median;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -61,7 +61,8 @@ fn determines_all(information: &SMatrix<f64, UNKNOWNS, UNKNOWNS>) -> bool {
 }
 
 /// Covariance that does not trust the noise model: every link in every view is one patch whose
-/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986).
+/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986); a link that
+/// stands still is one in all views. Residuals are those after `step`.
 pub(super) fn sandwich(
     evidence: &[Evidence],
     weighing: &Weighing,
@@ -73,24 +74,28 @@ pub(super) fn sandwich(
         return None;
     }
     let bread = sum.information.try_inverse()?;
+    let links = evidence.iter().flat_map(|view| view.surface.iter().chain(&view.outline));
+    let links = links.map(|factor| factor.link + 1).max().unwrap_or(0);
+    let none = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
     let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
-    for view in evidence {
-        let links = view.surface.iter().chain(&view.outline).map(|f| f.link + 1).max().unwrap_or(0);
-        let mut scores = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
-        for factor in &view.surface {
-            let weight = weighing.surface(view, factor);
-            scores[factor.link][0] +=
-                factor.jacobian * (weight * (factor.residual + factor.jacobian.dot(step)));
-        }
-        for factor in &view.outline {
-            let weight = weighing.outline(view, factor);
-            scores[factor.link][1] +=
-                factor.jacobian * (weight * (factor.residual + factor.jacobian.dot(step)));
-        }
-        for score in scores.iter().flatten() {
+    let mut fill = |patches: &[[SVector<f64, UNKNOWNS>; 2]]| {
+        for score in patches.iter().flatten() {
             filling += score * score.transpose();
         }
+    };
+    let mut still = none.clone();
+    for view in evidence {
+        let mut moving = none.clone();
+        let mut add = |factor: &Factor, kind: usize, weight: f64| {
+            let residual = factor.residual + factor.jacobian.dot(step);
+            let patches = if factor.still { &mut still } else { &mut moving };
+            patches[factor.link][kind] += factor.jacobian * (weight * residual);
+        };
+        view.surface.iter().for_each(|factor| add(factor, 0, weighing.surface(view, factor)));
+        view.outline.iter().for_each(|factor| add(factor, 1, weighing.outline(view, factor)));
+        fill(&moving);
     }
+    fill(&still);
     for prior in weighing.priors(state) {
         filling[(prior.unknown, prior.unknown)] += prior.deviation.powi(-2);
     }

@@ -2,6 +2,7 @@
 
 use super::evidence::{Evidence, deviations};
 use super::{JointPrior, RefineOptions, joint_prior};
+use crate::arm::MOST_JOINTS;
 use crate::factors::{DEPTH_SCALE, FIRST_JOINT, Factor, OUTLINE_WIDTH, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::geman_mcclure;
@@ -62,8 +63,8 @@ pub(super) struct Weighing {
     pub scales: Scales,
     pub sigma: Scales,
     pub trust: Trust,
-    /// Prior deviation of the joints' offsets, radians.
-    pub joint_prior_rad: f64,
+    /// Prior deviation of each joint's offset, radians.
+    pub joint_prior_rad: [f64; MOST_JOINTS],
 }
 
 impl Weighing {
@@ -75,8 +76,12 @@ impl Weighing {
         options: &RefineOptions,
     ) -> Self {
         let sigma = deviations(evidence, scales);
-        let mut weighing =
-            Self { scales: *scales, sigma, trust: options.trust, joint_prior_rad: 0.0 };
+        let mut weighing = Self {
+            scales: *scales,
+            sigma,
+            trust: options.trust,
+            joint_prior_rad: [1.0; MOST_JOINTS],
+        };
         weighing.joint_prior_rad = match options.joint_prior {
             JointPrior::Known { rad } => rad,
             JointPrior::Estimated => joint_prior::estimate(evidence, &weighing, state),
@@ -90,23 +95,24 @@ impl Weighing {
             Prior { unknown: DEPTH_SCALE, value: state.depth_scale, deviation: DEPTH_SCALE_PRIOR },
             Prior { unknown: OUTLINE_WIDTH, value: state.outline_px, deviation: OUTLINE_PRIOR_PX },
         ];
-        let (deviation, joints) = (self.joint_prior_rad, state.joint_offsets.rad);
-        let joints = joints.into_iter().enumerate();
+        let joints = state.joint_offsets.rad.into_iter().zip(self.joint_prior_rad).enumerate();
         let of_joint =
-            move |(joint, value)| Prior { unknown: FIRST_JOINT + joint, value, deviation };
+            |(joint, (value, deviation))| Prior { unknown: FIRST_JOINT + joint, value, deviation };
         others.into_iter().chain(joints.map(of_joint))
     }
 
     pub fn surface(&self, evidence: &Evidence, factor: &Factor) -> f64 {
         let patches = (evidence.pixels_per_point / SURFACE_PATCH_PX).min(1.0);
         let robust = geman_mcclure(factor.residual, self.scales.surface_m);
-        self.trust.in_surfaces() * patches * robust / self.sigma.surface_m.powi(2)
+        evidence.share(factor) * self.trust.in_surfaces() * patches * robust
+            / self.sigma.surface_m.powi(2)
     }
 
     pub fn outline(&self, evidence: &Evidence, factor: &Factor) -> f64 {
         let patches = (evidence.cracks_per_factor / OUTLINE_PATCH_PX).min(1.0);
         let robust = geman_mcclure(factor.residual, self.scales.outline_px);
-        self.trust.in_outlines() * patches * robust / self.sigma.outline_px.powi(2)
+        evidence.share(factor) * self.trust.in_outlines() * patches * robust
+            / self.sigma.outline_px.powi(2)
     }
 
     /// The linearised problem of all views, with the priors. Views are added in their order.

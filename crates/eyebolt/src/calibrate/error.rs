@@ -103,8 +103,7 @@ pub(crate) fn estimate(
     ErrorEstimate {
         expected: expected(&covariance, &pose, &workspace_in_base),
         covariance: to_optical * covariance * to_optical.transpose(),
-        leave_one_out: left_out
-            .map(|ends| ends.iter().map(|end| between(&pose, end)).collect()),
+        leave_one_out: left_out.map(|ends| ends.iter().map(|end| between(&pose, end)).collect()),
         disagreement: sides.map(|[a, b]| between(&a.camera_from_base, &b)),
         workspace_in_base,
         joint_sigma_rad,

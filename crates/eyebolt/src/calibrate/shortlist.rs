@@ -46,7 +46,8 @@ pub(crate) fn choose(work: &mut Work<'_>, candidates: &[Candidate]) -> Option<Ch
         if scored.iter().any(leads_to) {
             continue;
         }
-        let (short, _) = refine(work.session, &work.views, &mut work.rasters, &(*start).into(), OPENING);
+        let (short, _) =
+            refine(work.session, &work.views, &mut work.rasters, &(*start).into(), OPENING);
         let all = total(&work.agreement(&short.end()));
         scored.push((all.contradicted_share() + all.unexplained_share(), short.camera_from_base));
     }
@@ -65,11 +66,7 @@ fn is_another(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> bool 
 
 /// Whether `rival`, refined to its end, still is another pose than `answer` and explains nearly as
 /// much.
-pub(crate) fn stands(
-    work: &mut Work<'_>,
-    rival: &Transform<Camera, Base>,
-    answer: &Start,
-) -> bool {
+pub(crate) fn stands(work: &mut Work<'_>, rival: &Transform<Camera, Base>, answer: &Start) -> bool {
     if work.views.is_empty() {
         return false;
     }

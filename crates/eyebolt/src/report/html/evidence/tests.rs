@@ -64,7 +64,7 @@ fn refinement(camera_from_base: Transform<Camera, Base>) -> Refinement {
         camera_from_base,
         joint_offsets: JointOffsets::default(),
         joint_sigma_rad: [0.0; MOST_JOINTS],
-        joint_prior_rad: 0.0,
+        joint_prior_rad: [1.0; MOST_JOINTS],
         depth_scale: 0.0,
         outline_px: 0.0,
         information: Matrix6::identity(),
