@@ -59,7 +59,7 @@ pub fn refined(
 }
 
 /// Millimetres of the camera in the base frame, and degrees.
-pub fn error(pose: &Transform<Camera, Base>) -> (f64, f64) {
+fn error(pose: &Transform<Camera, Base>) -> (f64, f64) {
     let (metres, _) = truth().inverse().distance_to(&pose.inverse());
     let (_, radians) = truth().distance_to(pose);
     (metres * 1e3, radians.to_degrees())
