@@ -113,6 +113,7 @@ pub fn calibrate(
         choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &refinement.end()));
     let evidence = verdict::Evidence {
         refinement: &refinement,
+        joints: session.arm.joints(),
         outcomes: &outcomes,
         outside_limits: &session.outside_limits,
         error: &error,

@@ -72,6 +72,7 @@ pub fn all_reasons() -> Vec<Reason> {
         Reason::NotSettled { translation_mm: 3.5, rotation_deg: 0.25 },
         Reason::OutsideLimits(outside),
         Reason::Misplaced { misplaced: 3, judged: 5 },
+        Reason::JointOff { joint: "elbow".to_owned(), offset_deg: -3.5, limit_deg: 2.0 },
         Reason::Contradicted { percent: 40.0, limit: 25.0 },
         Reason::Unexplained { percent: 60.0, limit: 45.0 },
         Reason::Ambiguous,

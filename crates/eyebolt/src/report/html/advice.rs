@@ -45,6 +45,10 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
              the joint that moves it, or its zero, is not.",
             "Check that joint states and depth were taken at the same time: the arm at rest, clocks in step.",
         ],
+        Reason::JointOff { .. } => &[
+            "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
+            "If the joint really is that far off, set its zero anew: nothing that rests on it is right.",
+        ],
         Reason::Contradicted { .. } => &[
             "Check that the robot description has the variant, the mount and the tool of this arm.",
             "Check joint names and order, and that depth is in the unit that the recording says.",
