@@ -34,6 +34,13 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let joints = answer.assumed_joints.join(", ");
         let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
     }
+    for joint in answer.joint_offsets.iter().filter(|joint| joint.is_notable()) {
+        let _ = writeln!(
+            text,
+            "  {} seems to stand {:+.2} ± {:.2} degrees from where it says: allowed for",
+            joint.joint, joint.offset_deg, joint.sigma_deg
+        );
+    }
     let _ = write!(text, "\nwritten to {}", path.display());
     if let (Some(first), Some(folder)) =
         (pictures.first(), pictures.first().and_then(|p| p.parent()))

@@ -1,5 +1,9 @@
 //! An arm's links as shapes, and the arm in one configuration.
 
+mod joints;
+
+pub use joints::{ArmJoint, JointAxis, JointOffsets, MOST_JOINTS};
+
 use crate::distance_field::DistanceSample;
 use crate::link_model::LinkModel;
 use eyebolt_geometry::{Base, Camera, Link, Transform};
@@ -7,10 +11,11 @@ use eyebolt_render::PosedMesh;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::sync::Arc;
 
-/// The shapes of all links of an arm that have one.
+/// The shapes of all links of an arm that have one, and the joints whose zeros may be off.
 #[derive(Clone, Debug)]
 pub struct ArmModel {
     links: Vec<ArmLink>,
+    joints: Vec<ArmJoint>,
 }
 
 /// One link with a shape.
@@ -30,7 +35,26 @@ impl ArmModel {
     /// With more than 255 links.
     pub fn new(links: Vec<ArmLink>) -> Self {
         assert!(links.len() < 256, "an arm of {} links", links.len());
-        Self { links }
+        Self { links, joints: Vec::new() }
+    }
+
+    /// The same arm with `joints`, from the base on, of a chain where each carries the next; those
+    /// beyond the first [`MOST_JOINTS`] are taken at their word.
+    ///
+    /// # Panics
+    ///
+    /// If a joint does not say of each link whether it carries it.
+    #[must_use]
+    pub fn with_joints(self, mut joints: Vec<ArmJoint>) -> Self {
+        let complete = |joint: &ArmJoint| joint.carries.len() == self.links.len();
+        assert!(joints.iter().all(complete), "one entry for each link");
+        joints.truncate(MOST_JOINTS);
+        Self { joints, ..self }
+    }
+
+    /// The joints whose zeros may be off, from the base on; none unless they were given.
+    pub fn joints(&self) -> &[ArmJoint] {
+        &self.joints
     }
 
     /// The links, in the order that postures use.
@@ -44,6 +68,7 @@ impl ArmModel {
 pub struct Posture {
     base_from_link: Vec<Transform<Base, Link>>,
     placed: Vec<Placed>,
+    axes: Vec<JointAxis>,
 }
 
 /// A link's pose the other way round, in single precision, with a sphere about its field.
@@ -81,7 +106,15 @@ impl Posture {
                 radius_m: 0.5 * (high - low).norm(),
             }
         });
-        Self { placed: placed.collect(), base_from_link }
+        Self { placed: placed.collect(), base_from_link, axes: Vec::new() }
+    }
+
+    /// The same posture, where the arm's joints have their axes at `axes`, in the order of
+    /// [`ArmModel::joints`]; those beyond the first [`MOST_JOINTS`] have no use.
+    #[must_use]
+    pub fn with_axes(self, mut axes: Vec<JointAxis>) -> Self {
+        axes.truncate(MOST_JOINTS);
+        Self { axes, ..self }
     }
 
     /// Pose of each link of the model.

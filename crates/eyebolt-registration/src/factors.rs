@@ -2,20 +2,23 @@
 //!
 //! Unknowns: translation (m) and rotation vector (rad) of `camera_from_base` as
 //! [`Transform::retract`](eyebolt_geometry::Transform::retract) has them, the relative error of the
-//! depth's scale, and the width in pixels by which the outline seen is too wide.
+//! depth's scale, the width in pixels by which the outline seen is too wide, and how much farther
+//! each joint stands than it says (rad).
 
-use crate::arm::{ArmModel, Posture};
+use crate::arm::{ArmModel, JointOffsets, MOST_JOINTS, Posture};
 use crate::silhouette::Silhouette;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_render::ContourPoint;
 use nalgebra::{Point3, SVector, Vector3};
 
 /// Number of unknowns.
-pub(crate) const UNKNOWNS: usize = 8;
+pub(crate) const UNKNOWNS: usize = FIRST_JOINT + MOST_JOINTS;
 /// Place of the depth scale among the unknowns.
 pub(crate) const DEPTH_SCALE: usize = 6;
 /// Place of the outline's excess width among the unknowns.
 pub(crate) const OUTLINE_WIDTH: usize = 7;
+/// Place of the first joint's offset among the unknowns.
+pub(crate) const FIRST_JOINT: usize = 8;
 
 /// A residual with its derivative by the unknowns.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +28,8 @@ pub(crate) struct Factor {
     pub jacobian: SVector<f64, UNKNOWNS>,
     /// The link that the evidence is about.
     pub link: usize,
+    /// Whether that link stands still while the joints move: every view shows the same of it.
+    pub still: bool,
 }
 
 /// What the unknowns are now.
@@ -34,15 +39,52 @@ pub(crate) struct State {
     /// True depth is `1 + depth_scale` times the depth seen.
     pub depth_scale: f64,
     pub outline_px: f64,
+    pub joint_offsets: JointOffsets,
 }
 
 impl State {
+    /// The arm at `camera_from_base` with nothing else known to be off.
+    pub fn new(camera_from_base: Transform<Camera, Base>, joint_offsets: JointOffsets) -> Self {
+        Self { camera_from_base, depth_scale: 0.0, outline_px: 0.0, joint_offsets }
+    }
+
     pub fn stepped(&self, step: &SVector<f64, UNKNOWNS>) -> Self {
+        let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT);
+        let rad = std::array::from_fn(|joint| self.joint_offsets.rad[joint] + joints[joint]);
         Self {
             camera_from_base: self.camera_from_base.retract(&step.fixed_rows::<6>(0).into_owned()),
             depth_scale: self.depth_scale + step[DEPTH_SCALE],
             outline_px: self.outline_px + step[OUTLINE_WIDTH],
+            joint_offsets: JointOffsets { rad },
         }
+    }
+}
+
+/// The arm as a state has it: in one of its postures, with each joint where it stands in truth.
+#[derive(Clone, Copy)]
+pub(crate) struct PosedArm<'a> {
+    pub arm: &'a ArmModel,
+    /// Moved by the offsets of `state`.
+    pub posture: &'a Posture,
+    pub state: &'a State,
+}
+
+impl PosedArm<'_> {
+    /// Sets the derivatives of `gradient . point` by the angles of the joints above `link`, which
+    /// carries the point; both in the base frame. Whether the arm has joints, but none there.
+    fn by_joints(
+        &self,
+        link: usize,
+        gradient: &Vector3<f64>,
+        point: &Point3<f64>,
+        jacobian: &mut SVector<f64, UNKNOWNS>,
+    ) -> bool {
+        let mut still = !self.arm.joints().is_empty();
+        for (joint, axis) in self.posture.axes_above(self.arm, link) {
+            jacobian[FIRST_JOINT + joint] = axis.derivative(gradient, point);
+            still = false;
+        }
+        still
     }
 }
 
@@ -56,17 +98,17 @@ fn moved_by_base(gradient: &Vector3<f64>, point: &Vector3<f64>, origin: &Vector3
 ///
 /// `None` where that surface faces away: the camera cannot have seen it.
 pub(crate) fn surface_factor(
-    arm: &ArmModel,
-    posture: &Posture,
-    state: &State,
+    posed: &PosedArm<'_>,
     point_in_camera: &Point3<f32>,
 ) -> Option<Factor> {
+    let PosedArm { arm, posture, state } = posed;
     let seen = point_in_camera.coords.cast::<f64>();
     let point = seen * (1.0 + state.depth_scale);
     let pose = state.camera_from_base.isometry();
     let point_in_base: Point3<f32> = pose.inverse_transform_point(&Point3::from(point)).cast();
     let nearest = posture.nearest(arm, &point_in_base)?;
-    let normal = pose.rotation * nearest.gradient_in_base.cast::<f64>();
+    let normal_in_base = nearest.gradient_in_base.cast::<f64>();
+    let normal = pose.rotation * normal_in_base;
     if normal.dot(&point) > 0.0 {
         return None;
     }
@@ -75,16 +117,18 @@ pub(crate) fn surface_factor(
     let mut jacobian = SVector::<f64, UNKNOWNS>::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
     jacobian[DEPTH_SCALE] = normal.dot(&seen);
-    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
+    let still =
+        posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
+    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link, still })
 }
 
 /// Distance in the image of a point of the posed arm's contour from the outline seen.
 ///
 /// `None` where no outline is known nearby, or where the nearest one is another edge.
 pub(crate) fn outline_factor(
+    posed: &PosedArm<'_>,
     camera: &PinholeCamera,
     silhouette: &Silhouette,
-    state: &State,
     contour: &ContourPoint,
 ) -> Option<Factor> {
     let (distance, gradient) = silhouette.sample(&contour.pixel)?;
@@ -94,24 +138,28 @@ pub(crate) fn outline_factor(
     let point = contour.point_in_camera.cast::<f64>();
     let (_, by_point) = camera.project_with_jacobian(&point)?;
     let along = by_point.tr_mul(&gradient.cast::<f64>());
-    let origin = state.camera_from_base.translation_m();
+    let pose = posed.state.camera_from_base.isometry();
+    let origin = pose.translation.vector;
     let mut jacobian = SVector::<f64, UNKNOWNS>::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&moved_by_base(&along, &point.coords, &origin));
     jacobian[OUTLINE_WIDTH] = 1.0;
-    let residual = f64::from(distance) + state.outline_px;
-    Some(Factor { residual, jacobian, link: contour.link as usize })
+    let link = contour.link as usize;
+    let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
+    let still = posed.by_joints(link, &along, &at, &mut jacobian);
+    let residual = f64::from(distance) + posed.state.outline_px;
+    Some(Factor { residual, jacobian, link, still })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arm::ArmLink;
+    use crate::arm::{ArmJoint, ArmLink, JointAxis};
     use crate::distance_field::DistanceField;
     use crate::link_model::LinkModel;
     use crate::silhouette::{Label, Labels};
     use eyebolt_geometry::{Distortion, Link};
     use eyebolt_robot::TriangleMesh;
-    use nalgebra::{Point2, UnitQuaternion, Vector2};
+    use nalgebra::{Point2, Unit, UnitQuaternion, Vector2};
     use proptest::prelude::*;
     use proptest::test_runner::{Config, RngSeed};
     use std::sync::Arc;
@@ -128,7 +176,8 @@ mod tests {
     fn state() -> impl Strategy<Value = State> {
         (vector(1.5), vector(1.8), -0.02..0.02_f64, -2.0..2.0_f64).prop_map(|(t, r, scale, px)| {
             let camera_from_base = Transform::from_parts(t, UnitQuaternion::new(r));
-            State { camera_from_base, depth_scale: scale, outline_px: px }
+            let joint_offsets = JointOffsets::default();
+            State { camera_from_base, depth_scale: scale, outline_px: px, joint_offsets }
         })
     }
 
@@ -141,13 +190,29 @@ mod tests {
         })
     }
 
-    /// An arm of one link whose surface is a plane through its origin.
+    /// An arm of one link whose surface is a plane through its origin, on the second and the third of
+    /// three joints.
     fn plane(normal: Vector3<f32>) -> ArmModel {
         let origin = Point3::new(-0.2, -0.2, -0.2);
         let field = DistanceField::from_fn(origin, 0.05, [9; 3], 0.26, |p| normal.dot(&p.coords));
         let mesh = TriangleMesh::default();
         let model = Arc::new(LinkModel { field, surface: Vec::new(), mesh });
+        let joint = |carries| ArmJoint { name: "joint".to_owned(), carries: vec![carries] };
         ArmModel::new(vec![ArmLink { name: "plane".to_owned(), model }])
+            .with_joints([false, true, true].map(joint).to_vec())
+    }
+
+    fn axes() -> impl Strategy<Value = Vec<JointAxis>> {
+        let axis =
+            (vector(0.5), vector(1.0)).prop_filter_map("no direction", |(through, along)| {
+                let along_in_base = Unit::try_new(along, 0.1)?;
+                Some(JointAxis { through_in_base: through.into(), along_in_base })
+            });
+        prop::collection::vec(axis, 3)
+    }
+
+    fn posed<'a>(arm: &'a ArmModel, posture: &'a Posture, state: &'a State) -> PosedArm<'a> {
+        PosedArm { arm, posture, state }
     }
 
     fn ray() -> impl Strategy<Value = Vector3<f64>> {
@@ -160,7 +225,7 @@ mod tests {
         #[test]
         fn the_surface_jacobian_is_the_derivative(
             state in state(), ray in ray(), depth in 0.4..2.0_f64, normal in vector(1.0),
-            in_link in vector(0.1), link_turn in vector(1.8),
+            in_link in vector(0.1), link_turn in vector(1.8), axes in axes(),
         ) {
             let seen = ray * depth;
             let Some(normal) = normal.try_normalize(0.1) else { return Ok(()) };
@@ -175,8 +240,11 @@ mod tests {
             let base_from_link = Transform::<Base, Link>::from_parts(origin, rotation);
             let normal = rotation.inverse() * base_from_camera.direction(&normal_in_camera);
             let arm = plane(normal.cast());
-            let posture = Posture::new(&arm, vec![base_from_link]);
-            let at = |s: &State| surface_factor(&arm, &posture, s, &Point3::from(seen).cast());
+            let posture = Posture::new(&arm, vec![base_from_link]).with_axes(axes);
+            let at = |s: &State| {
+                let moved = posture.moved(&arm, &s.joint_offsets);
+                surface_factor(&posed(&arm, &moved, s), &Point3::from(seen).cast())
+            };
             let factor = at(&state).expect("a surface that faces the camera");
             prop_assert!((factor.residual - normal.dot(&in_link)).abs() < 2e-5);
             prop_assert_eq!(factor.link, 0);
@@ -189,6 +257,7 @@ mod tests {
         fn the_outline_jacobian_is_the_derivative(
             state in state(), u in 10.0..54.0_f64, v in 10.0..38.0_f64, depth in 0.4..2.0_f64,
             upright in any::<bool>(), k1 in -0.1..0.1_f64, p1 in -0.01..0.01_f64,
+            axes in axes(),
         ) {
             let lens = Distortion::plumb_bob([k1, 0.02, p1, 0.002, 0.0]);
             let camera = PinholeCamera::new(64, 48, 60.0, 62.0, 31.0, 24.0, lens).unwrap();
@@ -199,22 +268,27 @@ mod tests {
             let outward = if upright { Vector2::x() } else { Vector2::y() };
             let seen = Point3::from(camera.ray(&Point2::new(u, v)).unwrap() * depth);
             let in_base = state.camera_from_base.inverse().point(&seen);
-            // The point of the surface moves along with the base.
+            let arm = plane(Vector3::z());
+            let pose = Transform::from_parts(in_base.coords, UnitQuaternion::identity());
+            let posture = Posture::new(&arm, vec![pose]).with_axes(axes);
+            // The point of the surface moves along with the base and the link.
             let at = |s: &State| {
+                let moved = posture.moved(&arm, &s.joint_offsets);
+                let in_base = moved.base_from_link()[0].point(&Point3::origin());
                 let point = s.camera_from_base.point(&in_base);
                 let contour = ContourPoint {
                     pixel: camera.project(&point).unwrap().cast(),
                     point_in_camera: point.cast(),
                     outward,
-                    link: 3,
+                    link: 0,
                     behind_m: None,
                 };
-                outline_factor(&camera, &silhouette, s, &contour).unwrap()
+                outline_factor(&posed(&arm, &moved, s), &camera, &silhouette, &contour).unwrap()
             };
             let factor = at(&state);
             let true_px = if upright { u - 29.5 } else { v - 19.5 } + state.outline_px;
             prop_assert!((factor.residual - true_px).abs() < 1e-4);
-            prop_assert_eq!(factor.link, 3);
+            prop_assert_eq!(factor.link, 0);
             let numeric = numeric(&state, |s| at(s).residual);
             let away = (numeric - factor.jacobian).amax();
             // Pixels in single precision, a thousandth apart in metres.
@@ -228,8 +302,9 @@ mod tests {
         let silhouette = Silhouette::new(&Labels::from_fn(0..64, 0..48, |u, _| {
             if u < 30 { Label::Arm } else { Label::Background }
         }));
-        let state =
-            State { camera_from_base: Transform::identity(), depth_scale: 0.0, outline_px: 0.0 };
+        let state = State::new(Transform::identity(), JointOffsets::default());
+        let arm = plane(Vector3::z());
+        let posture = Posture::new(&arm, vec![Transform::identity()]);
         let factor = |outward: Vector2<f32>| {
             let contour = ContourPoint {
                 pixel: Point2::new(25.0, 20.0),
@@ -238,7 +313,7 @@ mod tests {
                 link: 0,
                 behind_m: None,
             };
-            outline_factor(&camera, &silhouette, &state, &contour)
+            outline_factor(&posed(&arm, &posture, &state), &camera, &silhouette, &contour)
         };
         assert!(factor(Vector2::x()).is_some());
         assert!(factor(-Vector2::x()).is_none());
@@ -247,13 +322,13 @@ mod tests {
 
     #[test]
     fn a_surface_that_faces_away_was_not_seen() {
-        let state =
-            State { camera_from_base: Transform::identity(), depth_scale: 0.0, outline_px: 0.0 };
+        let state = State::new(Transform::identity(), JointOffsets::default());
         let pose = Transform::from_parts(Vector3::z(), UnitQuaternion::identity());
         for (towards_camera, seen) in [(-Vector3::z(), true), (Vector3::z(), false)] {
             let arm = plane(towards_camera);
             let posture = Posture::new(&arm, vec![pose]);
-            let factor = surface_factor(&arm, &posture, &state, &Point3::new(0.01, 0.02, 0.95));
+            let point = Point3::new(0.01, 0.02, 0.95);
+            let factor = surface_factor(&posed(&arm, &posture, &state), &point);
             assert_eq!(factor.is_some(), seen);
         }
     }

@@ -20,12 +20,16 @@ mod surface_sample;
 mod triangle;
 mod view;
 
-pub use arm::{ArmLink, ArmModel, NearestSurface, Posture};
+pub use arm::{
+    ArmJoint, ArmLink, ArmModel, JointAxis, JointOffsets, MOST_JOINTS, NearestSurface, Posture,
+};
 pub use cache::LinkCache;
 pub use distance_field::{DistanceField, DistanceSample};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
-pub use refine::{RefineOptions, RefineView, Refinement, StopReason, Trust, ViewFit, refine};
+pub use refine::{
+    JointPrior, RefineOptions, RefineView, Refinement, Start, StopReason, Trust, ViewFit, refine,
+};
 pub use robust::median;
 pub use rotations::spread_rotations;
 pub use search::{Candidate, SearchView, search};

@@ -1,12 +1,13 @@
 //! Robust refinement of one pose over all configurations at once.
 
 mod evidence;
+mod joint_prior;
 mod summary;
 mod weighing;
 
 pub use weighing::Trust;
 
-use crate::arm::ArmModel;
+use crate::arm::{ArmModel, JointOffsets, MOST_JOINTS};
 use crate::factors::{State, UNKNOWNS};
 use crate::silhouette::Silhouette;
 use crate::view::View;
@@ -41,6 +42,36 @@ pub struct RefineOptions {
     pub outline_scale_px: f64,
     /// How much the two kinds of evidence count.
     pub trust: Trust,
+    /// How far off joints may be.
+    pub joint_prior: JointPrior,
+}
+
+/// What is known beforehand of how far off joints are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointPrior {
+    /// Each by this standard deviation.
+    Known {
+        /// The deviations, radians.
+        rad: [f64; MOST_JOINTS],
+    },
+    /// All by the same deviation, which the data tell, but for joints that stand out.
+    Estimated,
+}
+
+/// Where a refinement begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// The pose.
+    pub camera_from_base: Transform<Camera, Base>,
+    /// How much farther the joints stand than they say.
+    pub joint_offsets: JointOffsets,
+}
+
+impl From<Transform<Camera, Base>> for Start {
+    /// At a pose, with every joint where it says.
+    fn from(camera_from_base: Transform<Camera, Base>) -> Self {
+        Self { camera_from_base, joint_offsets: JointOffsets::default() }
+    }
 }
 
 /// Why a refinement stopped.
@@ -52,6 +83,13 @@ pub enum StopReason {
     IterationLimit,
     /// The evidence does not determine the pose.
     Underdetermined,
+}
+
+impl Refinement {
+    /// From where another refinement would go on.
+    pub fn end(&self) -> Start {
+        Start { camera_from_base: self.camera_from_base, joint_offsets: self.joint_offsets }
+    }
 }
 
 /// How well one view fits.
@@ -73,6 +111,12 @@ pub struct ViewFit {
 pub struct Refinement {
     /// The pose.
     pub camera_from_base: Transform<Camera, Base>,
+    /// How much farther the joints stand than they say, as far as the data tell.
+    pub joint_offsets: JointOffsets,
+    /// Standard deviation of each of them, radians; infinite where nothing is determined.
+    pub joint_sigma_rad: [f64; MOST_JOINTS],
+    /// Prior deviation of each of them that this came with, radians.
+    pub joint_prior_rad: [f64; MOST_JOINTS],
     /// True depth is `1 + depth_scale` times the depth seen, as far as the data tell.
     pub depth_scale: f64,
     /// By how many pixels the outline seen is wider than the arm.
@@ -95,7 +139,7 @@ pub struct Refinement {
     pub stop: StopReason,
 }
 
-/// Refines `camera_from_base` from `start` on all `views`.
+/// Refines the pose from `start` on all `views`.
 ///
 /// Alternates between drawing the posed arm for its contour and one Gauss-Newton step on the
 /// distances of points from surfaces and of the contour from the outline, both under Geman and
@@ -105,10 +149,10 @@ pub fn refine(
     arm: &ArmModel,
     views: &[RefineView<'_>],
     rasters: &mut [Raster],
-    start: &Transform<Camera, Base>,
+    start: &Start,
     options: &RefineOptions,
 ) -> Refinement {
-    let mut state = State { camera_from_base: *start, depth_scale: 0.0, outline_px: 0.0 };
+    let mut state = State::new(start.camera_from_base, start.joint_offsets);
     let mut scales =
         Scales { surface_m: options.surface_scale_m, outline_px: options.outline_scale_px };
     let mut stop = StopReason::IterationLimit;
@@ -117,7 +161,7 @@ pub fn refine(
     let mut evidence = gather(arm, views, rasters, &state);
     while iterations < options.iterations {
         iterations += 1;
-        let weighing = Weighing::of(&evidence, &scales, options.trust);
+        let weighing = Weighing::of(&evidence, &scales, &state, options);
         let sigma = weighing.sigma;
         let Some(step) = weighing.total(&evidence, &state).solve(1e-6) else {
             stop = StopReason::Underdetermined;
@@ -135,7 +179,7 @@ pub fn refine(
         scales.surface_m = (0.6 * scales.surface_m).max(3.0 * sigma.surface_m.max(0.002));
         scales.outline_px = (0.6 * scales.outline_px).max(3.0 * sigma.outline_px);
     }
-    let weighing = Weighing::of(&evidence, &scales, options.trust);
+    let weighing = Weighing::of(&evidence, &scales, &state, options);
     let mut outcome = summary::summarise(&state, &evidence, &weighing);
     if outcome.stop != StopReason::Underdetermined {
         outcome.stop = stop;

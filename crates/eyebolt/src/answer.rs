@@ -55,6 +55,9 @@ pub struct Answer {
     pub depth_scale_error: Option<f64>,
     /// By how many pixels the outline seen is wider than the arm's.
     pub outline_excess_px: Option<f64>,
+    /// How much farther the joints stand than they say, from the base on: zeros that are off, as far
+    /// as the data tell. Empty if nothing was found.
+    pub joint_offsets: Vec<JointOffset>,
     /// One for each frame of the recording, frames of one configuration together.
     pub configurations: Vec<FrameOutcome>,
     /// How many frames of a bag did not take part, by reason: `moving`, `no_joint_state_near`...
@@ -133,6 +136,28 @@ pub struct Size {
     pub rotation_deg: f64,
 }
 
+/// How much farther a joint stands than it says.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointOffset {
+    /// Name of the joint.
+    pub joint: String,
+    /// Its true position is the recorded one plus this, degrees.
+    pub offset_deg: f64,
+    /// Standard deviation of that, degrees.
+    pub sigma_deg: f64,
+}
+
+impl JointOffset {
+    /// Whether the joint's zero is surely off, and by enough to be looked into.
+    pub fn is_notable(&self) -> bool {
+        self.offset_deg.abs() > NOTABLE_OFFSET_DEG.max(NOTABLE_SIGMAS * self.sigma_deg)
+    }
+}
+
+/// Good arms' zeros are off by a few hundredths of a degree.
+const NOTABLE_OFFSET_DEG: f64 = 0.05;
+const NOTABLE_SIGMAS: f64 = 3.0;
+
 /// What changes when one configuration is left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct LeaveOneOut {
@@ -210,6 +235,9 @@ impl Answer {
             silhouette_iou: agreement.and_then(|agreement| agreement.silhouette_iou()),
             depth_scale_error: refinement.map(|refinement| refinement.depth_scale),
             outline_excess_px: refinement.map(|refinement| refinement.outline_px),
+            joint_offsets: session
+                .map(|session| joint_offsets(session, calibration))
+                .unwrap_or_default(),
             configurations: frame_outcomes(calibration),
             frames_left_out: left_out(request.recording),
             spare_configurations: session.map_or(0, |session| session.spare_configurations),
@@ -241,6 +269,20 @@ impl Answer {
         text.push('\n');
         text
     }
+}
+
+fn joint_offsets(session: &Session, calibration: &Calibration) -> Vec<JointOffset> {
+    let (Some(refinement), Some(error)) = (&calibration.refinement, &calibration.error) else {
+        return Vec::new();
+    };
+    let estimates = refinement.joint_offsets.rad.iter().zip(&error.joint_sigma_rad);
+    let joints = session.arm.joints().iter().zip(estimates);
+    let told = joints.map(|(joint, (offset, sigma))| JointOffset {
+        joint: joint.name.clone(),
+        offset_deg: offset.to_degrees(),
+        sigma_deg: sigma.to_degrees(),
+    });
+    told.filter(|joint| joint.sigma_deg.is_finite()).collect()
 }
 
 fn is_zero(count: &usize) -> bool {

@@ -16,7 +16,7 @@ use crate::progress::{Progress, Step};
 use crate::refine::{CLOSING, refine};
 use crate::session::Session;
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
-use eyebolt_registration::{RefineView, Refinement, View};
+use eyebolt_registration::{Posture, RefineView, Refinement, Start, View};
 use eyebolt_render::Raster;
 
 /// What became of one configuration.
@@ -100,19 +100,20 @@ pub fn calibrate(
         let verdict = verdict::nothing_found(&outcomes, &session.outside_limits, limits);
         return Calibration { configurations: outcomes, ..Calibration::without_pose(verdict) };
     };
-    let (mut refinement, mut observed) = work.refine(&choice.camera_from_base);
+    let (mut refinement, mut observed) = work.refine(&choice.camera_from_base.into());
     let misplaced = work.find_misplaced(&refinement, &mut outcomes);
     if verdict::may_be_dropped(misplaced, &outcomes) {
         work = Work::new(session, &masks, &outcomes);
-        (refinement, observed) = work.refine(&refinement.camera_from_base);
+        (refinement, observed) = work.refine(&refinement.end());
     }
     progress.begin(Step::Calibrate);
     work.measure(&refinement, &mut outcomes);
     let error = error::estimate(&mut work, &refinement, &observed);
-    let pose = refinement.camera_from_base;
-    let rival = choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &pose));
+    let rival =
+        choice.rival.is_some_and(|rival| shortlist::stands(&mut work, &rival, &refinement.end()));
     let evidence = verdict::Evidence {
         refinement: &refinement,
+        joints: session.arm.joints(),
         outcomes: &outcomes,
         outside_limits: &session.outside_limits,
         error: &error,
@@ -173,7 +174,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn refine(&mut self, start: &Transform<Camera, Base>) -> (Refinement, Vec<RefineView<'a>>) {
+    fn refine(&mut self, start: &Start) -> (Refinement, Vec<RefineView<'a>>) {
         refine(self.session, &self.views, &mut self.rasters, start, CLOSING)
     }
 
@@ -183,8 +184,9 @@ impl<'a> Work<'a> {
         refinement: &Refinement,
         outcomes: &mut [ConfigurationOutcome],
     ) -> usize {
-        let pose = &refinement.camera_from_base;
-        let found = misplaced_links(self.session, &self.views, &mut self.rasters, pose);
+        let postures = self.postures(&refinement.end());
+        let (views, pose) = (with_postures(&self.views, &postures), &refinement.camera_from_base);
+        let found = misplaced_links(self.session, &views, &mut self.rasters, pose);
         let mut count = 0;
         for (index, misplaced) in self.indices.iter().zip(found) {
             if let Some(misplaced) = misplaced {
@@ -195,15 +197,27 @@ impl<'a> Work<'a> {
         count
     }
 
-    fn agreement(&mut self, pose: &Transform<Camera, Base>) -> Vec<Agreement> {
-        agreement(self.session, &self.views, &self.masks, &mut self.rasters, pose)
+    /// Where the links are with the joints as `at` has them.
+    fn postures(&self, at: &Start) -> Vec<Posture> {
+        let moved = |view: &View<'_>| view.posture.moved(&self.session.arm, &at.joint_offsets);
+        self.views.iter().map(moved).collect()
+    }
+
+    fn agreement(&mut self, at: &Start) -> Vec<Agreement> {
+        let postures = self.postures(at);
+        let (views, pose) = (with_postures(&self.views, &postures), &at.camera_from_base);
+        agreement(self.session, &views, &self.masks, &mut self.rasters, pose)
     }
 
     fn measure(&mut self, refinement: &Refinement, outcomes: &mut [ConfigurationOutcome]) {
-        let agreement = self.agreement(&refinement.camera_from_base);
+        let agreement = self.agreement(&refinement.end());
         for ((index, fit), agreement) in self.indices.iter().zip(&refinement.views).zip(agreement) {
             outcomes[*index].residual_m = fit.surface_m.is_finite().then_some(fit.surface_m);
             outcomes[*index].agreement = Some(agreement);
         }
     }
+}
+
+fn with_postures<'b>(views: &[View<'b>], postures: &'b [Posture]) -> Vec<View<'b>> {
+    views.iter().zip(postures).map(|(view, posture)| View { posture, ..*view }).collect()
 }

@@ -30,7 +30,8 @@ pub struct Request<'a> {
 pub struct Outcome {
     /// The answer and the verdict.
     pub calibration: Calibration,
-    /// What was seen; `None` if the recording is not of this robot.
+    /// What was seen, with the arm's links where the answer has them; `None` if the recording is not
+    /// of this robot.
     pub session: Option<Session>,
 }
 
@@ -44,8 +45,11 @@ pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Re
     progress.begin(Step::Record);
     let Request { recording, arm, cache, options, limits, seed } = request;
     match record::open(recording, arm, cache, options) {
-        Ok(session) => {
+        Ok(mut session) => {
             let calibration = calibrate(&session, limits, *seed, progress);
+            if let Some(refinement) = &calibration.refinement {
+                session.move_joints(&refinement.joint_offsets);
+            }
             Ok(Outcome { calibration, session: Some(session) })
         }
         Err(RecordError::Kinematics { source, .. }) if is_other_robot(arm, &source) => {

@@ -3,6 +3,7 @@
 mod background;
 mod eye;
 mod group;
+mod joints;
 mod limits;
 mod spread;
 
@@ -128,6 +129,7 @@ pub fn open(
         .iter()
         .map(|group| links.iter().filter_map(|l| group.first.base_from_links[*l]).collect())
         .collect();
+    let (joints, model) = joints::offered(arm, &links, model);
     let chosen = most_spread(&postures, options.most_configurations);
     let eye = eye::find(recording, &first_frame(recording, &groups[chosen[0]].frames)?)?;
     let reader = Reader { recording, eye: &eye, rays: RayTable::new(&eye.camera), options };
@@ -142,7 +144,11 @@ pub fn open(
             depth: read.depth,
             mask: read.mask,
             base_from_end_effector: groups[*group].first.base_from_end_effector,
-            posture: Posture::new(&model, postures[*group].clone()),
+            posture: Posture::new(&model, postures[*group].clone()).with_axes(joints::axes(
+                arm,
+                &joints,
+                &groups[*group].first.base_from_links,
+            )),
         })
     });
     // Collected first: of several errors the first is reported, whichever thread met it.

@@ -2,16 +2,21 @@
 
 use crate::label::{arm_points, labels_at};
 use crate::session::Session;
-use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{RefineOptions, RefineView, Refinement, Silhouette, Trust, View};
+use eyebolt_registration::{
+    JointPrior, MOST_JOINTS, RefineOptions, RefineView, Refinement, Silhouette, Start, Trust, View,
+};
 use eyebolt_render::Raster;
 use rayon::prelude::*;
 
 /// Points on surfaces that a configuration contributes.
 const POINTS: usize = 1200;
 
+/// Centimetres away, joints that are off would be anything.
+const AT_THEIR_WORD: JointPrior = JointPrior::Known { rad: [1e-5; MOST_JOINTS] };
+
 /// From a start that may be centimetres off to one that is within the reach of [`CLOSING`].
-pub const OPENING: &[RefineOptions] = &[options(4, 0.06, 20.0)];
+pub const OPENING: &[RefineOptions] =
+    &[RefineOptions { joint_prior: AT_THEIR_WORD, ..options(4, 0.06, 20.0) }];
 
 /// From there to the answer.
 pub const CLOSING: &[RefineOptions] = &[options(5, 0.03, 8.0), options(20, 0.02, 4.0)];
@@ -23,7 +28,8 @@ pub const LEAVE_ONE_OUT: RefineOptions = options(6, 0.02, 4.0);
 pub const ONE_SIDED: RefineOptions = options(8, 0.02, 4.0);
 
 const fn options(iterations: usize, surface_scale_m: f64, outline_scale_px: f64) -> RefineOptions {
-    RefineOptions { iterations, surface_scale_m, outline_scale_px, trust: Trust::Both }
+    let joint_prior = JointPrior::Estimated;
+    RefineOptions { iterations, surface_scale_m, outline_scale_px, trust: Trust::Both, joint_prior }
 }
 
 /// Drawing buffers, one for each configuration.
@@ -31,18 +37,20 @@ pub fn rasters(session: &Session) -> Vec<Raster> {
     session.configurations.iter().map(|_| Raster::new(&session.camera)).collect()
 }
 
-/// Labels and points of each of `views` with the arm posed at `camera_from_base`.
+/// Labels and points of each of `views` with the arm posed as `start` has it.
 pub fn observe<'a>(
     session: &Session,
     views: &[View<'a>],
     rasters: &mut [Raster],
-    camera_from_base: &Transform<Camera, Base>,
+    start: &Start,
 ) -> Vec<RefineView<'a>> {
     let pairs = views.par_iter().zip(rasters.par_iter_mut());
     pairs
         .map(|(view, raster)| {
-            let rays = &session.rays;
-            let labels = labels_at(&session.arm, view, rays, raster, camera_from_base);
+            let (arm, rays) = (&session.arm, &session.rays);
+            let posture = &view.posture.moved(arm, &start.joint_offsets);
+            let posed = View { posture, ..*view };
+            let labels = labels_at(arm, &posed, rays, raster, &start.camera_from_base);
             let (arm_points, pixels_per_point) = arm_points(&labels, view, rays, POINTS);
             let silhouette = Silhouette::new(&labels);
             RefineView { view: *view, arm_points, pixels_per_point, silhouette }
@@ -60,16 +68,16 @@ pub fn refine<'a>(
     session: &Session,
     views: &[View<'a>],
     rasters: &mut [Raster],
-    start: &Transform<Camera, Base>,
+    start: &Start,
     rounds: &[RefineOptions],
 ) -> (Refinement, Vec<RefineView<'a>>) {
-    let mut pose = *start;
+    let mut start = *start;
     let mut last = None;
     for options in rounds {
-        let observed = observe(session, views, rasters, &pose);
+        let observed = observe(session, views, rasters, &start);
         let refinement =
-            eyebolt_registration::refine(&session.arm, &observed, rasters, &pose, options);
-        pose = refinement.camera_from_base;
+            eyebolt_registration::refine(&session.arm, &observed, rasters, &start, options);
+        start = refinement.end();
         last = Some((refinement, observed));
     }
     last.expect("at least one round")

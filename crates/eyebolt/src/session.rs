@@ -4,7 +4,7 @@ use crate::record::OutsideLimits;
 use eyebolt_geometry::{
     Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
 };
-use eyebolt_registration::{ArmModel, Posture, View};
+use eyebolt_registration::{ArmModel, JointOffsets, Posture, View};
 
 /// Arm configurations, the camera that saw them and the arm.
 #[derive(Clone, Debug)]
@@ -100,6 +100,14 @@ impl Session {
             depth: &configuration.depth,
             mask: configuration.mask.as_ref(),
             posture: &configuration.posture,
+        }
+    }
+
+    /// Moves the links of all configurations to where the joints put them if they stand farther by
+    /// `offsets` than they say.
+    pub fn move_joints(&mut self, offsets: &JointOffsets) {
+        for configuration in &mut self.configurations {
+            configuration.posture = configuration.posture.moved(&self.arm, offsets);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::RefineView;
 use super::weighing::Scales;
 use crate::arm::ArmModel;
-use crate::factors::{Factor, State, outline_factor, surface_factor};
+use crate::factors::{Factor, PosedArm, State, outline_factor, surface_factor};
 use crate::robust::median;
 use eyebolt_render::{Raster, outer_contour};
 use rayon::prelude::*;
@@ -22,6 +22,15 @@ pub(super) struct Evidence {
     /// Points of the arm, and how many pixels each stands for.
     pub points: usize,
     pub pixels_per_point: f64,
+    /// Views in all.
+    pub views: usize,
+}
+
+impl Evidence {
+    /// A link that stands still shows the same in each view, with the same errors: it counts once.
+    pub fn share(&self, factor: &Factor) -> f64 {
+        if factor.still { (self.views as f64).recip() } else { 1.0 }
+    }
 }
 
 /// Residuals of all views at `state`.
@@ -32,7 +41,7 @@ pub(super) fn gather(
     state: &State,
 ) -> Vec<Evidence> {
     let pairs = views.par_iter().zip(rasters.par_iter_mut());
-    pairs.map(|(view, raster)| gather_one(arm, view, raster, state)).collect()
+    pairs.map(|(view, raster)| gather_one(arm, view, raster, state, views.len())).collect()
 }
 
 fn gather_one(
@@ -40,24 +49,27 @@ fn gather_one(
     view: &RefineView<'_>,
     raster: &mut Raster,
     state: &State,
+    views: usize,
 ) -> Evidence {
-    let (camera, posture) = (view.view.camera, view.view.posture);
+    let camera = view.view.camera;
+    let posture = &view.view.posture.moved(arm, &state.joint_offsets);
+    let posed = PosedArm { arm, posture, state };
     raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
     let cracks = outer_contour(raster, camera);
     let stride = cracks.len().div_ceil(CONTOUR_POINTS).max(1);
     let outline = cracks
         .iter()
         .step_by(stride)
-        .filter_map(|crack| outline_factor(camera, &view.silhouette, state, crack))
+        .filter_map(|crack| outline_factor(&posed, camera, &view.silhouette, crack))
         .collect();
-    let surface =
-        view.arm_points.iter().filter_map(|p| surface_factor(arm, posture, state, p)).collect();
+    let surface = view.arm_points.iter().filter_map(|p| surface_factor(&posed, p)).collect();
     Evidence {
         surface,
         outline,
         cracks_per_factor: stride as f64,
         points: view.arm_points.len(),
         pixels_per_point: view.pixels_per_point,
+        views,
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a refinement comes to: fits, information, covariance.
 
 use super::evidence::Evidence;
-use super::weighing::{DEPTH_SCALE_PRIOR, OUTLINE_PRIOR_PX, Scales, Weighing};
+use super::weighing::{Scales, Weighing};
 use super::{Refinement, StopReason, ViewFit};
-use crate::factors::{DEPTH_SCALE, OUTLINE_WIDTH, State, UNKNOWNS};
+use crate::factors::{FIRST_JOINT, Factor, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::median;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -17,13 +17,22 @@ pub(super) fn summarise(state: &State, evidence: &[Evidence], weighing: &Weighin
     let sigma = &weighing.sigma;
     let sum = weighing.total(evidence, state);
     let views = evidence.iter().map(|view| view_fit(view, sigma)).collect();
-    let covariance = sandwich(evidence, weighing, &sum);
+    let all = sandwich(evidence, weighing, state, &sum, &SVector::zeros());
+    let covariance = all.map(|all| all.fixed_view::<6, 6>(0, 0).into_owned());
     let inverse = sum.information.try_inverse();
     let pose_only = inverse
         .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
         .unwrap_or_else(Matrix6::zeros);
     Refinement {
         camera_from_base: state.camera_from_base,
+        joint_offsets: state.joint_offsets,
+        joint_sigma_rad: std::array::from_fn(|joint| {
+            let variance = |all: SMatrix<f64, UNKNOWNS, UNKNOWNS>| {
+                all[(FIRST_JOINT + joint, FIRST_JOINT + joint)]
+            };
+            all.map_or(f64::INFINITY, |all| variance(all).sqrt())
+        }),
+        joint_prior_rad: weighing.joint_prior_rad,
         depth_scale: state.depth_scale,
         outline_px: state.outline_px,
         information: pose_only,
@@ -52,37 +61,46 @@ fn determines_all(information: &SMatrix<f64, UNKNOWNS, UNKNOWNS>) -> bool {
 }
 
 /// Covariance that does not trust the noise model: every link in every view is one patch whose
-/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986).
-fn sandwich(
+/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986); a link that
+/// stands still is one in all views. Residuals are those after `step`.
+pub(super) fn sandwich(
     evidence: &[Evidence],
     weighing: &Weighing,
+    state: &State,
     sum: &NormalEquations<UNKNOWNS>,
-) -> Option<Matrix6<f64>> {
+    step: &SVector<f64, UNKNOWNS>,
+) -> Option<SMatrix<f64, UNKNOWNS, UNKNOWNS>> {
     if !determines_all(&sum.information) {
         return None;
     }
     let bread = sum.information.try_inverse()?;
+    let links = evidence.iter().flat_map(|view| view.surface.iter().chain(&view.outline));
+    let links = links.map(|factor| factor.link + 1).max().unwrap_or(0);
+    let none = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
     let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
-    for view in evidence {
-        let links = view.surface.iter().chain(&view.outline).map(|f| f.link + 1).max().unwrap_or(0);
-        let mut scores = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
-        for factor in &view.surface {
-            let weight = weighing.surface(view, factor);
-            scores[factor.link][0] += factor.jacobian * (weight * factor.residual);
-        }
-        for factor in &view.outline {
-            let weight = weighing.outline(view, factor);
-            scores[factor.link][1] += factor.jacobian * (weight * factor.residual);
-        }
-        for score in scores.iter().flatten() {
+    let mut fill = |patches: &[[SVector<f64, UNKNOWNS>; 2]]| {
+        for score in patches.iter().flatten() {
             filling += score * score.transpose();
         }
+    };
+    let mut still = none.clone();
+    for view in evidence {
+        let mut moving = none.clone();
+        let mut add = |factor: &Factor, kind: usize, weight: f64| {
+            let residual = factor.residual + factor.jacobian.dot(step);
+            let patches = if factor.still { &mut still } else { &mut moving };
+            patches[factor.link][kind] += factor.jacobian * (weight * residual);
+        };
+        view.surface.iter().for_each(|factor| add(factor, 0, weighing.surface(view, factor)));
+        view.outline.iter().for_each(|factor| add(factor, 1, weighing.outline(view, factor)));
+        fill(&moving);
     }
-    filling[(DEPTH_SCALE, DEPTH_SCALE)] += DEPTH_SCALE_PRIOR.powi(-2);
-    filling[(OUTLINE_WIDTH, OUTLINE_WIDTH)] += OUTLINE_PRIOR_PX.powi(-2);
+    fill(&still);
+    for prior in weighing.priors(state) {
+        filling[(prior.unknown, prior.unknown)] += prior.deviation.powi(-2);
+    }
     let covariance = bread * filling * bread;
-    let pose: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
-    pose.iter().all(|v| v.is_finite()).then(|| (pose + pose.transpose()) * 0.5)
+    covariance.iter().all(|v| v.is_finite()).then(|| (covariance + covariance.transpose()) * 0.5)
 }
 
 fn view_fit(view: &Evidence, sigma: &Scales) -> ViewFit {

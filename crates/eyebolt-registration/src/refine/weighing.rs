@@ -1,7 +1,9 @@
 //! What residuals weigh, and the linear problem they add up to.
 
 use super::evidence::{Evidence, deviations};
-use crate::factors::{DEPTH_SCALE, Factor, OUTLINE_WIDTH, State, UNKNOWNS};
+use super::{JointPrior, RefineOptions, joint_prior};
+use crate::arm::MOST_JOINTS;
+use crate::factors::{DEPTH_SCALE, FIRST_JOINT, Factor, OUTLINE_WIDTH, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::geman_mcclure;
 use nalgebra::SVector;
@@ -12,9 +14,9 @@ const SURFACE_PATCH_PX: f64 = 400.0;
 /// Errors of an outline go together over about this many pixels.
 const OUTLINE_PATCH_PX: f64 = 8.0;
 /// Prior deviation of the depth's scale.
-pub(super) const DEPTH_SCALE_PRIOR: f64 = 0.01;
+const DEPTH_SCALE_PRIOR: f64 = 0.01;
 /// Prior deviation of the outline's excess, pixels.
-pub(super) const OUTLINE_PRIOR_PX: f64 = 1.0;
+const OUTLINE_PRIOR_PX: f64 = 1.0;
 
 /// How much the two kinds of evidence count: as much as their residuals deserve, or one of them
 /// hardly at all, to see whether the two agree.
@@ -48,30 +50,69 @@ pub(super) struct Scales {
     pub outline_px: f64,
 }
 
+/// An unknown that is `value` away from what it is taken for, give or take `deviation`.
+pub(super) struct Prior {
+    pub unknown: usize,
+    pub value: f64,
+    pub deviation: f64,
+}
+
 /// How residuals are weighed in one step.
 #[derive(Clone, Copy)]
 pub(super) struct Weighing {
     pub scales: Scales,
     pub sigma: Scales,
     pub trust: Trust,
+    /// Prior deviation of each joint's offset, radians.
+    pub joint_prior_rad: [f64; MOST_JOINTS],
 }
 
 impl Weighing {
     /// Weighs `evidence` by its own deviations.
-    pub fn of(evidence: &[Evidence], scales: &Scales, trust: Trust) -> Self {
-        Self { scales: *scales, sigma: deviations(evidence, scales), trust }
+    pub fn of(
+        evidence: &[Evidence],
+        scales: &Scales,
+        state: &State,
+        options: &RefineOptions,
+    ) -> Self {
+        let sigma = deviations(evidence, scales);
+        let mut weighing = Self {
+            scales: *scales,
+            sigma,
+            trust: options.trust,
+            joint_prior_rad: [1.0; MOST_JOINTS],
+        };
+        weighing.joint_prior_rad = match options.joint_prior {
+            JointPrior::Known { rad } => rad,
+            JointPrior::Estimated => joint_prior::estimate(evidence, &weighing, state),
+        };
+        weighing
+    }
+
+    /// Which unknowns have a prior, what it takes them to be, and how surely.
+    pub fn priors(&self, state: &State) -> impl Iterator<Item = Prior> {
+        let others = [
+            Prior { unknown: DEPTH_SCALE, value: state.depth_scale, deviation: DEPTH_SCALE_PRIOR },
+            Prior { unknown: OUTLINE_WIDTH, value: state.outline_px, deviation: OUTLINE_PRIOR_PX },
+        ];
+        let joints = state.joint_offsets.rad.into_iter().zip(self.joint_prior_rad).enumerate();
+        let of_joint =
+            |(joint, (value, deviation))| Prior { unknown: FIRST_JOINT + joint, value, deviation };
+        others.into_iter().chain(joints.map(of_joint))
     }
 
     pub fn surface(&self, evidence: &Evidence, factor: &Factor) -> f64 {
         let patches = (evidence.pixels_per_point / SURFACE_PATCH_PX).min(1.0);
         let robust = geman_mcclure(factor.residual, self.scales.surface_m);
-        self.trust.in_surfaces() * patches * robust / self.sigma.surface_m.powi(2)
+        evidence.share(factor) * self.trust.in_surfaces() * patches * robust
+            / self.sigma.surface_m.powi(2)
     }
 
     pub fn outline(&self, evidence: &Evidence, factor: &Factor) -> f64 {
         let patches = (evidence.cracks_per_factor / OUTLINE_PATCH_PX).min(1.0);
         let robust = geman_mcclure(factor.residual, self.scales.outline_px);
-        self.trust.in_outlines() * patches * robust / self.sigma.outline_px.powi(2)
+        evidence.share(factor) * self.trust.in_outlines() * patches * robust
+            / self.sigma.outline_px.powi(2)
     }
 
     /// The linearised problem of all views, with the priors. Views are added in their order.
@@ -81,12 +122,8 @@ impl Weighing {
         for view in &views {
             sum.add_all(view);
         }
-        let priors = [
-            (DEPTH_SCALE, state.depth_scale, DEPTH_SCALE_PRIOR),
-            (OUTLINE_WIDTH, state.outline_px, OUTLINE_PRIOR_PX),
-        ];
-        for (unknown, value, deviation) in priors {
-            sum.add(&SVector::ith(unknown, 1.0), value, deviation.powi(-2));
+        for prior in self.priors(state) {
+            sum.add(&SVector::ith(prior.unknown, 1.0), prior.value, prior.deviation.powi(-2));
         }
         sum
     }

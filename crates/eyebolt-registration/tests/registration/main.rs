@@ -4,6 +4,7 @@ mod cache;
 mod distance_field;
 mod facets;
 mod interpolation;
+mod joint_offsets;
 mod link_model;
 mod posture;
 mod refine;

@@ -3,17 +3,18 @@ use crate::strategies::on_threads;
 use crate::synthetic_arm::{ARM, CAMERA, Scene, looking, scenes};
 use eyebolt_geometry::{Base, Camera, Tangent, Transform};
 use eyebolt_registration::{
-    Label, Labels, RefineOptions, RefineView, Refinement, Silhouette, StopReason, Trust, refine,
+    JointPrior, Label, Labels, RefineOptions, RefineView, Refinement, Silhouette, StopReason,
+    Trust, refine,
 };
 use eyebolt_render::Raster;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-fn truth() -> Transform<Camera, Base> {
+pub fn truth() -> Transform<Camera, Base> {
     looking(Vector3::new(1.1, 0.5, 0.8), Vector3::new(0.0, 0.05, 0.35), 0.1)
 }
 
 /// 3 cm and 3 degrees off, in various directions.
-fn starts() -> Vec<Transform<Camera, Base>> {
+pub fn starts() -> Vec<Transform<Camera, Base>> {
     let directions = [[1.0, 1.0, 1.0], [-1.0, 2.0, 0.5], [0.3, -1.0, -2.0], [0.0, 0.0, 1.0]];
     let starts = directions.iter().zip(directions.iter().rev()).map(|(metres, radians)| {
         let translation = Vector3::from(*metres).normalize() * 0.03;
@@ -24,7 +25,7 @@ fn starts() -> Vec<Transform<Camera, Base>> {
     starts.collect()
 }
 
-fn observed(scenes: &[Scene]) -> Vec<RefineView<'_>> {
+pub fn observed(scenes: &[Scene]) -> Vec<RefineView<'_>> {
     let one = |scene| {
         let scene: &Scene = scene;
         let labels = Labels::from_fn(0..320, 0..240, |u, v| {
@@ -40,11 +41,21 @@ fn observed(scenes: &[Scene]) -> Vec<RefineView<'_>> {
     scenes.iter().map(one).collect()
 }
 
-fn refined(views: &[RefineView<'_>], start: &Transform<Camera, Base>, trust: Trust) -> Refinement {
+pub fn refined(
+    views: &[RefineView<'_>],
+    start: &Transform<Camera, Base>,
+    trust: Trust,
+) -> Refinement {
     let mut rasters: Vec<Raster> = views.iter().map(|_| Raster::new(&CAMERA)).collect();
-    let options =
-        RefineOptions { iterations: 40, surface_scale_m: 0.05, outline_scale_px: 15.0, trust };
-    refine(&ARM, views, &mut rasters, start, &options)
+    let joint_prior = JointPrior::Estimated;
+    let options = RefineOptions {
+        iterations: 40,
+        surface_scale_m: 0.05,
+        outline_scale_px: 15.0,
+        trust,
+        joint_prior,
+    };
+    refine(&ARM, views, &mut rasters, &(*start).into(), &options)
 }
 
 /// Millimetres of the camera in the base frame, and degrees.

@@ -4,7 +4,7 @@ use crate::shapes::{cuboid, cylinder, joined};
 use eyebolt_geometry::{
     Base, Camera, DepthImage, Distortion, Link, Mask, PinholeCamera, RayTable, Transform,
 };
-use eyebolt_registration::{ArmLink, ArmModel, LinkModel, Posture, View};
+use eyebolt_registration::{ArmJoint, ArmLink, ArmModel, JointAxis, LinkModel, Posture, View};
 use eyebolt_render::{PosedMesh, Raster};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
@@ -32,30 +32,42 @@ pub static ARM: LazyLock<ArmModel> = LazyLock::new(|| {
         name: (*name).to_owned(),
         model: Arc::new(LinkModel::build(mesh)),
     };
-    ArmModel::new(links.map(link).collect())
+    let carried = [("turn", 1), ("shoulder", 1), ("elbow", 2), ("twist", 2)];
+    let joint = |(name, first): (&str, usize)| ArmJoint {
+        name: name.to_owned(),
+        carries: (0..3).map(|link| link >= first).collect(),
+    };
+    ArmModel::new(links.map(link).collect()).with_joints(carried.map(joint).to_vec())
 });
 
 /// Four configurations: turn of the foot, shoulder, elbow, turn of the fore arm, radians.
-pub static POSTURES: LazyLock<Vec<Posture>> = LazyLock::new(|| {
-    let joints = [
-        [0.0, 0.3, 1.3, 0.2],
-        [1.1, -0.4, 1.6, 1.0],
-        [-1.2, 0.6, 0.8, -0.9],
-        [2.4, 0.2, -1.2, 2.0],
-    ];
-    joints.iter().map(posture).collect()
-});
+pub const JOINTS: [[f64; 4]; 4] =
+    [[0.0, 0.3, 1.3, 0.2], [1.1, -0.4, 1.6, 1.0], [-1.2, 0.6, 0.8, -0.9], [2.4, 0.2, -1.2, 2.0]];
 
-fn posture(&[turn, shoulder, elbow, twist]: &[f64; 4]) -> Posture {
+pub static POSTURES: LazyLock<Vec<Posture>> =
+    LazyLock::new(|| JOINTS.iter().map(posture).collect());
+
+/// Where the joints put the links.
+pub fn posture(&[turn, shoulder, elbow, twist]: &[f64; 4]) -> Posture {
     let along = |z: f64| Isometry3::translation(0.0, 0.0, z);
     let (about_y, about_z) = (
         |angle: f64| Isometry3::rotation(Vector3::y() * angle),
         |angle: f64| Isometry3::rotation(Vector3::z() * angle),
     );
-    let upper = along(0.28) * about_z(turn) * about_y(shoulder);
-    let fore = upper * along(0.36) * about_y(elbow) * about_z(twist) * along(0.03);
+    let turned = along(0.28) * about_z(turn);
+    let upper = turned * about_y(shoulder);
+    let bent = upper * along(0.36) * about_y(elbow);
+    let fore = bent * about_z(twist) * along(0.03);
     let poses = [Isometry3::identity(), upper, fore];
+    let axes = [(turned, Vector3::z_axis()), (upper, Vector3::y_axis())]
+        .into_iter()
+        .chain([(bent, Vector3::y_axis()), (fore, Vector3::z_axis())])
+        .map(|(at, axis)| JointAxis {
+            through_in_base: at * Point3::origin(),
+            along_in_base: at.rotation * axis,
+        });
     Posture::new(&ARM, poses.map(Transform::<Base, Link>::from_isometry).to_vec())
+        .with_axes(axes.collect())
 }
 
 /// The pose of a camera at `from` (base frame) that looks at `at`, rolled by `roll`.

@@ -4,12 +4,18 @@
 //! covariance of the refinement), what changes when configurations are left out (jackknife), and
 //! what is wrong in every frame alike, which neither of these can see: it shows where the two kinds
 //! of evidence, surfaces and outlines, disagree.
+//!
+//! Offsets of joints are unknowns in all three. One that nothing determines, such as the first joint's
+//! where the base link is out of view, is as uncertain as this arm's offsets are large, and the pose
+//! is with it.
 
 use super::Work;
 use crate::refine::{LEAVE_ONE_OUT, ONE_SIDED};
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{RefineOptions, RefineView, Refinement, Trust};
-use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
+use eyebolt_registration::{
+    JointPrior, MOST_JOINTS, RefineOptions, RefineView, Refinement, Start, Trust,
+};
+use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, SVector, Vector3, Vector6};
 
 /// A difference between two poses, or its expected size.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,6 +42,8 @@ pub struct ErrorEstimate {
     pub disagreement: Option<Deviation>,
     /// Centre of the workspace, base frame: where errors are measured.
     pub workspace_in_base: Point3<f64>,
+    /// Standard deviation of each joint's offset, radians, of all sources together.
+    pub joint_sigma_rad: [f64; MOST_JOINTS],
 }
 
 impl ErrorEstimate {
@@ -70,31 +78,35 @@ pub(crate) fn estimate(
     let pose = refinement.camera_from_base;
     let workspace_in_base = workspace(work);
     let mut covariance = refinement.covariance;
-    let left_out = leave_one_out(work, observed, &pose);
-    if let Some(poses) = &left_out {
-        covariance += jackknife(&pose, poses);
+    let left_out = leave_one_out(work, observed, refinement);
+    if let Some(ends) = &left_out {
+        covariance += jackknife(&deltas(&pose, ends));
     }
     let sides = refinement
         .views
         .iter()
         .any(|view| view.outline_px.is_some())
-        .then(|| one_sided(work, observed, &pose));
+        .then(|| one_sided(work, observed, refinement));
     covariance += match &sides {
         // The answer lies between the two, and either may be the better one.
         Some([surfaces, outlines]) => {
-            let half = 0.5 * surfaces.local(outlines);
+            let half = 0.5 * surfaces.camera_from_base.local(&outlines.camera_from_base);
             half * half.transpose()
         }
         None => Matrix6::from_diagonal(&ONE_KIND_SIGMA.map(|sigma| sigma * sigma)),
     };
-    let deviation = |other: &Transform<Camera, Base>| between(&pose, other, &workspace_in_base);
+    let between = |a: &Transform<Camera, Base>, b: &Start| {
+        between(a, &b.camera_from_base, &workspace_in_base)
+    };
+    let joint_sigma_rad = joint_sigma(refinement, left_out.as_deref(), sides.as_ref());
     let to_optical = to_optical(work);
     ErrorEstimate {
         expected: expected(&covariance, &pose, &workspace_in_base),
         covariance: to_optical * covariance * to_optical.transpose(),
-        leave_one_out: left_out.map(|poses| poses.iter().map(deviation).collect()),
-        disagreement: sides.map(|[a, b]| between(&a, &b, &workspace_in_base)),
+        leave_one_out: left_out.map(|ends| ends.iter().map(|end| between(&pose, end)).collect()),
+        disagreement: sides.map(|[a, b]| between(&a.camera_from_base, &b)),
         workspace_in_base,
+        joint_sigma_rad,
     }
 }
 
@@ -102,16 +114,18 @@ pub(crate) fn estimate(
 /// alone were off by on the LBR Med7 recording (15 mm and 1 degree in all).
 const ONE_KIND_SIGMA: Vector6<f64> = Vector6::new(0.009, 0.009, 0.009, 0.01, 0.01, 0.01);
 
-/// What surfaces alone and outlines alone make of `pose`.
+/// What surfaces alone and outlines alone make of `refinement`, with joints as likely to be off.
 fn one_sided(
     work: &mut Work<'_>,
     observed: &[RefineView<'_>],
-    pose: &Transform<Camera, Base>,
-) -> [Transform<Camera, Base>; 2] {
+    refinement: &Refinement,
+) -> [Start; 2] {
     [Trust::Surfaces, Trust::Outlines].map(|trust| {
-        let options = RefineOptions { trust, ..ONE_SIDED };
+        let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
+        let options = RefineOptions { trust, joint_prior, ..ONE_SIDED };
         let (arm, rasters) = (&work.session.arm, &mut work.rasters);
-        eyebolt_registration::refine(arm, observed, rasters, pose, &options).camera_from_base
+        let start = &refinement.end();
+        eyebolt_registration::refine(arm, observed, rasters, start, &options).end()
     })
 }
 
@@ -123,17 +137,20 @@ fn workspace(work: &Work<'_>) -> Point3<f64> {
     Point3::from(tips.iter().sum::<Vector3<f64>>() / tips.len().max(1) as f64)
 }
 
-/// Refines from `pose` without each of the views in turn; `None` with fewer than three.
+/// Refines on from `refinement` without each of the views in turn; `None` with fewer than three.
 fn leave_one_out(
     work: &mut Work<'_>,
     observed: &[RefineView<'_>],
-    pose: &Transform<Camera, Base>,
-) -> Option<Vec<Transform<Camera, Base>>> {
+    refinement: &Refinement,
+) -> Option<Vec<Start>> {
     if observed.len() < 3 {
         return None;
     }
     let arm = &work.session.arm;
-    let poses = (0..observed.len()).map(|left_out| {
+    let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
+    let options = RefineOptions { joint_prior, ..LEAVE_ONE_OUT };
+    let start = &refinement.end();
+    let ends = (0..observed.len()).map(|left_out| {
         let kept: Vec<RefineView<'_>> = observed
             .iter()
             .enumerate()
@@ -141,19 +158,40 @@ fn leave_one_out(
             .map(|(_, view)| view.clone())
             .collect();
         let rasters = &mut work.rasters[..kept.len()];
-        eyebolt_registration::refine(arm, &kept, rasters, pose, &LEAVE_ONE_OUT).camera_from_base
+        eyebolt_registration::refine(arm, &kept, rasters, start, &options).end()
     });
-    Some(poses.collect())
+    Some(ends.collect())
 }
 
-/// Jackknife covariance (Efron and Stein, Annals of Statistics 1981) of an answer from what it is
-/// with each part left out.
-fn jackknife(pose: &Transform<Camera, Base>, left_out: &[Transform<Camera, Base>]) -> Matrix6<f64> {
-    let count = left_out.len() as f64;
-    let deltas: Vec<Vector6<f64>> = left_out.iter().map(|other| pose.local(other)).collect();
-    let mean = deltas.iter().sum::<Vector6<f64>>() / count;
+fn deltas(pose: &Transform<Camera, Base>, ends: &[Start]) -> Vec<Vector6<f64>> {
+    ends.iter().map(|end| pose.local(&end.camera_from_base)).collect()
+}
+
+/// Jackknife covariance (Efron and Stein, Annals of Statistics 1981) of an answer from `deltas`, what
+/// it changes by with each part left out.
+fn jackknife<const N: usize>(deltas: &[SVector<f64, N>]) -> SMatrix<f64, N, N> {
+    let count = deltas.len() as f64;
+    let mean = deltas.iter().sum::<SVector<f64, N>>() / count;
     let scatter = deltas.iter().map(|d| (d - mean) * (d - mean).transpose());
-    scatter.sum::<Matrix6<f64>>() * ((count - 1.0) / count)
+    scatter.sum::<SMatrix<f64, N, N>>() * ((count - 1.0) / count)
+}
+
+/// Standard deviations of the joints' offsets, from the same sources as the pose's.
+fn joint_sigma(
+    refinement: &Refinement,
+    left_out: Option<&[Start]>,
+    sides: Option<&[Start; 2]>,
+) -> [f64; MOST_JOINTS] {
+    let offsets = |end: &Start| SVector::from(end.joint_offsets.rad);
+    let mut variance = SVector::from(refinement.joint_sigma_rad).map(|sigma| sigma * sigma);
+    if let Some(ends) = left_out {
+        let offsets: Vec<_> = ends.iter().map(offsets).collect();
+        variance += jackknife(&offsets).diagonal();
+    }
+    if let Some([surfaces, outlines]) = sides {
+        variance += (offsets(surfaces) - offsets(outlines)).map(|apart| (0.5 * apart).powi(2));
+    }
+    variance.map(f64::sqrt).into()
 }
 
 fn between(

@@ -3,7 +3,7 @@
 use super::{Agreement, Work};
 use crate::refine::{OPENING, refine};
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::Candidate;
+use eyebolt_registration::{Candidate, Start};
 
 /// The candidate that explains the views best.
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +46,9 @@ pub(crate) fn choose(work: &mut Work<'_>, candidates: &[Candidate]) -> Option<Ch
         if scored.iter().any(leads_to) {
             continue;
         }
-        let (short, _) = refine(work.session, &work.views, &mut work.rasters, start, OPENING);
-        let all = total(&work.agreement(&short.camera_from_base));
+        let (short, _) =
+            refine(work.session, &work.views, &mut work.rasters, &(*start).into(), OPENING);
+        let all = total(&work.agreement(&short.end()));
         scored.push((all.contradicted_share() + all.unexplained_share(), short.camera_from_base));
     }
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -65,21 +66,17 @@ fn is_another(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> bool 
 
 /// Whether `rival`, refined to its end, still is another pose than `answer` and explains nearly as
 /// much.
-pub(crate) fn stands(
-    work: &mut Work<'_>,
-    rival: &Transform<Camera, Base>,
-    answer: &Transform<Camera, Base>,
-) -> bool {
+pub(crate) fn stands(work: &mut Work<'_>, rival: &Transform<Camera, Base>, answer: &Start) -> bool {
     if work.views.is_empty() {
         return false;
     }
-    let (refined, _) = work.refine(rival);
-    let mut score = |pose: &Transform<Camera, Base>| {
-        let all = total(&work.agreement(pose));
+    let (refined, _) = work.refine(&(*rival).into());
+    let mut score = |at: &Start| {
+        let all = total(&work.agreement(at));
         all.contradicted_share() + all.unexplained_share()
     };
-    is_another(&refined.camera_from_base, answer)
-        && score(&refined.camera_from_base) < score(answer) + RIVAL_MARGIN
+    is_another(&refined.camera_from_base, &answer.camera_from_base)
+        && score(&refined.end()) < score(answer) + RIVAL_MARGIN
 }
 
 /// All views' counts together.

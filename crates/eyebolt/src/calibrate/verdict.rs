@@ -3,7 +3,7 @@
 use super::shortlist::total;
 use super::{Agreement, ConfigurationOutcome, Deviation, Dropped, ErrorEstimate};
 use crate::record::OutsideLimits;
-use eyebolt_registration::{Refinement, StopReason};
+use eyebolt_registration::{ArmJoint, Refinement, StopReason};
 use eyebolt_robot::JointKind;
 
 /// What an answer has to meet to be trusted.
@@ -26,6 +26,9 @@ impl Default for Limits {
 /// those of their description, and joints overshoot.
 const OUTSIDE_RAD: f64 = 0.1;
 const OUTSIDE_M: f64 = 0.01;
+/// Zeros of arms that were put together by hand are off by a degree; a joint that seems to be off by
+/// more says that its recorded positions are another's.
+const JOINT_OFF_RAD: f64 = 0.035;
 /// Share of configurations that may have a misplaced link before the joints themselves are in
 /// doubt.
 const MISPLACED_SHARE: f64 = 0.25;
@@ -108,6 +111,20 @@ pub enum Reason {
         /// Configurations looked at.
         judged: usize,
     },
+    /// The answer takes a joint to be farther off than zeros are.
+    #[error(
+        "joint {joint:?} would have to stand {offset_deg:+.1} degrees from where it says (at most \
+         {limit_deg:.1} are trusted): check that joint names and order, joint zeros and the robot \
+         description are this arm's"
+    )]
+    JointOff {
+        /// Name of the joint.
+        joint: String,
+        /// How much farther it stands than it says, degrees.
+        offset_deg: f64,
+        /// Allowed, either way, degrees.
+        limit_deg: f64,
+    },
     /// The camera sees through the posed arm.
     #[error(
         "{percent:.0} % of the posed arm's pixels are contradicted by depth or mask (at most \
@@ -157,6 +174,8 @@ pub enum Reason {
 /// What a verdict is based on.
 pub(crate) struct Evidence<'a> {
     pub refinement: &'a Refinement,
+    /// The arm's joints, in the order of the refinement's offsets.
+    pub joints: &'a [ArmJoint],
     pub outcomes: &'a [ConfigurationOutcome],
     pub outside_limits: &'a [OutsideLimits],
     pub error: &'a ErrorEstimate,
@@ -186,6 +205,7 @@ pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
         reasons.push(Reason::Underdetermined);
         return Verdict::Refused(reasons);
     }
+    reasons.extend(joint_off(evidence));
     reasons.extend(disagreement(evidence));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
     if reasons.iter().all(is_few_configurations) {
@@ -223,6 +243,17 @@ fn misplaced(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
     let judged = misplaced + outcomes.iter().filter(|o| o.dropped.is_none()).count();
     (misplaced as f64 > MISPLACED_SHARE * judged as f64)
         .then_some(Reason::Misplaced { misplaced, judged })
+}
+
+/// The joint that is farthest off, if that is too far.
+fn joint_off(evidence: &Evidence<'_>) -> Option<Reason> {
+    let joints = evidence.joints.iter().zip(evidence.refinement.joint_offsets.rad);
+    let (joint, rad) = joints.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+    (rad.abs() > JOINT_OFF_RAD).then(|| Reason::JointOff {
+        joint: joint.name.clone(),
+        offset_deg: rad.to_degrees(),
+        limit_deg: JOINT_OFF_RAD.to_degrees(),
+    })
 }
 
 fn is_misplaced(outcome: &ConfigurationOutcome) -> bool {

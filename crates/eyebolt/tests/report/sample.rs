@@ -43,6 +43,7 @@ pub fn without_pose(ran: &Ran, reasons: Vec<Reason>) -> (Answer, Outcome) {
     outcome.calibration = Calibration::without_pose(outcome.calibration.verdict.clone());
     outcome.session = None;
     answer.configurations.clear();
+    answer.joint_offsets.clear();
     (answer.camera_from_base, answer.base_from_camera) = (None, None);
     (answer.expected_error, answer.workspace_in_base_m) = (None, None);
     (answer.leave_one_out, answer.disagreement, answer.covariance) = (None, None, None);
@@ -71,6 +72,7 @@ pub fn all_reasons() -> Vec<Reason> {
         Reason::NotSettled { translation_mm: 3.5, rotation_deg: 0.25 },
         Reason::OutsideLimits(outside),
         Reason::Misplaced { misplaced: 3, judged: 5 },
+        Reason::JointOff { joint: "elbow".to_owned(), offset_deg: -3.5, limit_deg: 2.0 },
         Reason::Contradicted { percent: 40.0, limit: 25.0 },
         Reason::Unexplained { percent: 60.0, limit: 45.0 },
         Reason::Ambiguous,

@@ -5,6 +5,7 @@ mod answers;
 mod configurations;
 mod evaluation;
 mod faults;
+mod joint_offsets;
 mod labels;
 mod motion;
 mod presets;

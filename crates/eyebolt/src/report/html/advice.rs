@@ -45,6 +45,10 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
              the joint that moves it, or its zero, is not.",
             "Check that joint states and depth were taken at the same time: the arm at rest, clocks in step.",
         ],
+        Reason::JointOff { .. } => &[
+            "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
+            "If the joint really is that far off, set its zero anew: nothing that rests on it is right.",
+        ],
         Reason::Contradicted { .. } => &[
             "Check that the robot description has the variant, the mount and the tool of this arm.",
             "Check joint names and order, and that depth is in the unit that the recording says.",
@@ -133,6 +137,13 @@ fn evidence(answer: &Answer, notes: &mut Vec<String>) {
         note(format!(
             "Depth fits best when scaled by {:+.1} %: check the camera's depth calibration and unit.",
             100.0 * scale
+        ));
+    }
+    for joint in answer.joint_offsets.iter().filter(|joint| joint.is_notable()) {
+        note(format!(
+            "{} seems to stand {:+.2} ± {:.2} degrees from where it says: check its zero, and that the \
+             robot description is this arm's. The answer allows for it.",
+            joint.joint, joint.offset_deg, joint.sigma_deg
         ));
     }
     if let Some(px) = answer.outline_excess_px.filter(|px| px.abs() > NOTABLE_EXCESS_PX) {

@@ -3,7 +3,9 @@
 use super::*;
 use crate::session::{Background, ImageSource};
 use eyebolt_geometry::{DepthImage, Distortion, PinholeCamera, RayTable};
-use eyebolt_registration::{ArmLink, ArmModel, LinkModel, Posture, StopReason};
+use eyebolt_registration::{
+    ArmLink, ArmModel, JointOffsets, LinkModel, MOST_JOINTS, Posture, StopReason,
+};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 use std::sync::{Arc, LazyLock};
@@ -60,6 +62,9 @@ fn session() -> Session {
 fn refinement(camera_from_base: Transform<Camera, Base>) -> Refinement {
     Refinement {
         camera_from_base,
+        joint_offsets: JointOffsets::default(),
+        joint_sigma_rad: [0.0; MOST_JOINTS],
+        joint_prior_rad: [1.0; MOST_JOINTS],
         depth_scale: 0.0,
         outline_px: 0.0,
         information: Matrix6::identity(),
