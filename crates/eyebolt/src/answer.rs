@@ -30,6 +30,7 @@ pub struct Answer {
     /// Between which frames the answer runs.
     pub frames: Frames,
     /// Maps coordinates in the base frame to the depth optical frame; `null` if nothing was found.
+    /// The base frame is that of the base link where it stands, not as the first joint's zero has it.
     pub camera_from_base: Option<Pose>,
     /// The other way round: the pose of the camera in the base frame.
     pub base_from_camera: Option<Pose>,
