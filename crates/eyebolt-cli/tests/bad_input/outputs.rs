@@ -87,7 +87,9 @@ fn a_read_only_folder() {
 fn a_saved_calibration_that_is_cut_short() {
     let desk = Desk::new();
     let (saved, output) = (desk.file("calibration.json"), desk.file("tf.txt"));
-    fs::write(&saved, &GOOD[..GOOD.len() / 2]).unwrap();
+    // Between two lines: in a number it would be called a bad one.
+    let end = GOOD[..GOOD.len() / 2].rfind('\n').unwrap();
+    fs::write(&saved, &GOOD[..end]).unwrap();
     fs::write(&output, "precious").unwrap();
     let arguments = ["export", text(&saved), "--as", "tf2", "--output", text(&output), "--force"];
     eyebolt(&arguments).assert_error(&["calibration.json: line", "EOF", "Export the file as"]);
