@@ -70,8 +70,8 @@ pub(crate) struct PosedArm<'a> {
 }
 
 impl PosedArm<'_> {
-    /// Sets the derivatives of `gradient . point` by the angles of the joints above `link`, which
-    /// carries the point; both in the base frame. Whether the arm has joints, but none there.
+    /// Sets the derivatives of `gradient . point` by the offsets of the joints that move `link`, which
+    /// the point is on; both in the base frame. Whether the arm has joints, but none carries it.
     fn by_joints(
         &self,
         link: usize,
@@ -80,9 +80,12 @@ impl PosedArm<'_> {
         jacobian: &mut SVector<f64, UNKNOWNS>,
     ) -> bool {
         let mut still = !self.arm.joints().is_empty();
-        for (joint, axis) in self.posture.axes_above(self.arm, link) {
-            jacobian[FIRST_JOINT + joint] = axis.derivative(gradient, point);
-            still = false;
+        for (place, joint, axis) in self.posture.joints_with_axes(self.arm) {
+            let turns = joint.turns(link);
+            if turns != 0.0 {
+                jacobian[FIRST_JOINT + place] = turns * axis.derivative(gradient, point);
+            }
+            still &= !joint.carries[link];
         }
         still
     }
@@ -197,7 +200,11 @@ mod tests {
         let field = DistanceField::from_fn(origin, 0.05, [9; 3], 0.26, |p| normal.dot(&p.coords));
         let mesh = TriangleMesh::default();
         let model = Arc::new(LinkModel { field, surface: Vec::new(), mesh });
-        let joint = |carries| ArmJoint { name: "joint".to_owned(), carries: vec![carries] };
+        let joint = |carries| ArmJoint {
+            name: "joint".to_owned(),
+            carries: vec![carries],
+            defines_base: false,
+        };
         ArmModel::new(vec![ArmLink { name: "plane".to_owned(), model }])
             .with_joints([false, true, true].map(joint).to_vec())
     }

@@ -2,8 +2,9 @@
 
 use super::evidence::Evidence;
 use super::weighing::{Scales, Weighing};
-use super::{Refinement, StopReason, ViewFit};
-use crate::factors::{FIRST_JOINT, Factor, State, UNKNOWNS};
+use super::{Refinement, StopReason, ViewFit, joint_prior};
+use crate::arm::MOST_JOINTS;
+use crate::factors::{Factor, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::median;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -26,12 +27,10 @@ pub(super) fn summarise(state: &State, evidence: &[Evidence], weighing: &Weighin
     Refinement {
         camera_from_base: state.camera_from_base,
         joint_offsets: state.joint_offsets,
-        joint_sigma_rad: std::array::from_fn(|joint| {
-            let variance = |all: SMatrix<f64, UNKNOWNS, UNKNOWNS>| {
-                all[(FIRST_JOINT + joint, FIRST_JOINT + joint)]
-            };
-            all.map_or(f64::INFINITY, |all| variance(all).sqrt())
-        }),
+        joint_sigma_rad: joint_prior::seen(evidence, weighing, state).map_or(
+            [f64::INFINITY; MOST_JOINTS],
+            |(_, covariance)| covariance.diagonal().map(f64::sqrt).into(),
+        ),
         joint_prior_rad: weighing.joint_prior_rad,
         depth_scale: state.depth_scale,
         outline_px: state.outline_px,
