@@ -28,8 +28,6 @@ pub(crate) struct Factor {
     pub jacobian: SVector<f64, UNKNOWNS>,
     /// The link that the evidence is about.
     pub link: usize,
-    /// Whether that link stands still while the joints move: every view shows the same of it.
-    pub still: bool,
 }
 
 /// What the unknowns are now.
@@ -71,23 +69,20 @@ pub(crate) struct PosedArm<'a> {
 
 impl PosedArm<'_> {
     /// Sets the derivatives of `gradient . point` by the offsets of the joints that move `link`, which
-    /// the point is on; both in the base frame. Whether the arm has joints, but none carries it.
+    /// the point is on; both in the base frame.
     fn by_joints(
         &self,
         link: usize,
         gradient: &Vector3<f64>,
         point: &Point3<f64>,
         jacobian: &mut SVector<f64, UNKNOWNS>,
-    ) -> bool {
-        let mut still = !self.arm.joints().is_empty();
+    ) {
         for (place, joint, axis) in self.posture.joints_with_axes(self.arm) {
             let turns = joint.turns(link);
             if turns != 0.0 {
                 jacobian[FIRST_JOINT + place] = turns * axis.derivative(gradient, point);
             }
-            still &= !joint.carries[link];
         }
-        still
     }
 }
 
@@ -120,9 +115,8 @@ pub(crate) fn surface_factor(
     let mut jacobian = SVector::<f64, UNKNOWNS>::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
     jacobian[DEPTH_SCALE] = normal.dot(&seen);
-    let still =
-        posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
-    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link, still })
+    posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
+    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
 }
 
 /// Distance in the image of a point of the posed arm's contour from the outline seen.
@@ -148,9 +142,9 @@ pub(crate) fn outline_factor(
     jacobian[OUTLINE_WIDTH] = 1.0;
     let link = contour.link as usize;
     let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
-    let still = posed.by_joints(link, &along, &at, &mut jacobian);
+    posed.by_joints(link, &along, &at, &mut jacobian);
     let residual = f64::from(distance) + posed.state.outline_px;
-    Some(Factor { residual, jacobian, link, still })
+    Some(Factor { residual, jacobian, link })
 }
 
 #[cfg(test)]

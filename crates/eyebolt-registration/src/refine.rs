@@ -2,6 +2,7 @@
 
 mod evidence;
 mod joint_prior;
+mod places;
 mod summary;
 mod weighing;
 
@@ -159,7 +160,8 @@ pub fn refine(
     let mut stop = StopReason::IterationLimit;
     let mut iterations = 0;
     let mut last_step = Vector6::zeros();
-    let mut evidence = gather(arm, views, rasters, &state);
+    let places = places::places(views);
+    let mut evidence = gather(arm, views, rasters, &places, &state);
     while iterations < options.iterations {
         iterations += 1;
         let weighing = Weighing::of(arm, &evidence, &scales, &state, options);
@@ -170,7 +172,7 @@ pub fn refine(
         };
         last_step = step.fixed_rows::<6>(0).into_owned();
         state = state.stepped(&step);
-        evidence = gather(arm, views, rasters, &state);
+        evidence = gather(arm, views, rasters, &places, &state);
         let settled = scales.surface_m <= 3.01 * sigma.surface_m.max(0.002)
             && scales.outline_px <= 3.01 * sigma.outline_px;
         if settled && negligible(&step) {

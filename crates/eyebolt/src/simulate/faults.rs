@@ -116,19 +116,26 @@ impl Encoders {
         Self { offsets, backlash: faults.backlash }
     }
 
+    /// How much farther each joint stands than it says, radians.
+    pub(super) fn offsets(&self) -> BTreeMap<String, f64> {
+        self.offsets.iter().map(|(name, told)| (name.clone(), -told)).collect()
+    }
+
     /// From the base as the first joint's word has it, in which its links are where it says, to the
     /// base link.
     pub(super) fn base_from_told_base(&self, arm: &Arm) -> Transform<Base, Base> {
         let none = Transform::identity();
         let names = arm.required_joints();
-        let Some((first, offset)) = names.first().and_then(|name| self.offsets.get_key_value(*name))
+        let Some((first, offset)) =
+            names.first().and_then(|name| self.offsets.get_key_value(*name))
         else {
             return none;
         };
         let robot = arm.robot();
         let Some(index) = robot.joint_index(first) else { return none };
         let child_at = |position: f64| {
-            let at = |name: &&str| ((*name).to_owned(), if *name == first { position } else { 0.0 });
+            let at =
+                |name: &&str| ((*name).to_owned(), if *name == first { position } else { 0.0 });
             let poses = arm.link_poses_with_defaults(&names.iter().map(at).collect()).ok()?;
             poses.base_from_links.get(robot.joints[index].child).copied().flatten()
         };

@@ -9,6 +9,7 @@ use eyebolt_recording::{
 };
 use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
+use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
@@ -146,6 +147,11 @@ impl Plan<'_> {
     /// the joints speak of. Where the first joint is off that one is turned against the base link.
     pub fn sought_camera_from_base(&self) -> Transform<Camera, Base> {
         self.camera_from_base() * self.encoders().base_from_told_base(self.scenario.arm)
+    }
+
+    /// How much farther each joint that turns stands than it says, radians.
+    pub fn joint_offsets(&self) -> BTreeMap<String, f64> {
+        self.encoders().offsets()
     }
 
     fn truth(&self, timeline: &Timeline) -> Truth {
