@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         arguments.sensor.about,
         session.display()
     ));
-    calibrate(&arm, &cache, &folder, &plan.camera_from_base())
+    calibrate(&arm, &cache, &folder, &plan.sought_camera_from_base())
 }
 
 /// The folder that was asked for, or a new one.

@@ -41,6 +41,14 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
             joint.joint, joint.offset_deg, joint.sigma_deg
         );
     }
+    let notable = answer.joint_offsets.iter().any(|joint| joint.is_notable());
+    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| notable) {
+        let _ = writeln!(
+            text,
+            "  unless the joints' zeros are corrected, the end-effector is up to {mm:.1} mm from \
+             where they put it"
+        );
+    }
     let _ = write!(text, "\nwritten to {}", path.display());
     if let (Some(first), Some(folder)) =
         (pictures.first(), pictures.first().and_then(|p| p.parent()))

@@ -28,8 +28,6 @@ pub(crate) struct Factor {
     pub jacobian: SVector<f64, UNKNOWNS>,
     /// The link that the evidence is about.
     pub link: usize,
-    /// Whether that link stands still while the joints move: every view shows the same of it.
-    pub still: bool,
 }
 
 /// What the unknowns are now.
@@ -70,21 +68,21 @@ pub(crate) struct PosedArm<'a> {
 }
 
 impl PosedArm<'_> {
-    /// Sets the derivatives of `gradient . point` by the angles of the joints above `link`, which
-    /// carries the point; both in the base frame. Whether the arm has joints, but none there.
+    /// Sets the derivatives of `gradient . point` by the offsets of the joints that move `link`, which
+    /// the point is on; both in the base frame.
     fn by_joints(
         &self,
         link: usize,
         gradient: &Vector3<f64>,
         point: &Point3<f64>,
         jacobian: &mut SVector<f64, UNKNOWNS>,
-    ) -> bool {
-        let mut still = !self.arm.joints().is_empty();
-        for (joint, axis) in self.posture.axes_above(self.arm, link) {
-            jacobian[FIRST_JOINT + joint] = axis.derivative(gradient, point);
-            still = false;
+    ) {
+        for (place, joint, axis) in self.posture.joints_with_axes(self.arm) {
+            let turns = joint.turns(link);
+            if turns != 0.0 {
+                jacobian[FIRST_JOINT + place] = turns * axis.derivative(gradient, point);
+            }
         }
-        still
     }
 }
 
@@ -117,9 +115,8 @@ pub(crate) fn surface_factor(
     let mut jacobian = SVector::<f64, UNKNOWNS>::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
     jacobian[DEPTH_SCALE] = normal.dot(&seen);
-    let still =
-        posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
-    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link, still })
+    posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
+    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
 }
 
 /// Distance in the image of a point of the posed arm's contour from the outline seen.
@@ -145,9 +142,9 @@ pub(crate) fn outline_factor(
     jacobian[OUTLINE_WIDTH] = 1.0;
     let link = contour.link as usize;
     let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
-    let still = posed.by_joints(link, &along, &at, &mut jacobian);
+    posed.by_joints(link, &along, &at, &mut jacobian);
     let residual = f64::from(distance) + posed.state.outline_px;
-    Some(Factor { residual, jacobian, link, still })
+    Some(Factor { residual, jacobian, link })
 }
 
 #[cfg(test)]
@@ -197,7 +194,11 @@ mod tests {
         let field = DistanceField::from_fn(origin, 0.05, [9; 3], 0.26, |p| normal.dot(&p.coords));
         let mesh = TriangleMesh::default();
         let model = Arc::new(LinkModel { field, surface: Vec::new(), mesh });
-        let joint = |carries| ArmJoint { name: "joint".to_owned(), carries: vec![carries] };
+        let joint = |carries| ArmJoint {
+            name: "joint".to_owned(),
+            carries: vec![carries],
+            defines_base: false,
+        };
         ArmModel::new(vec![ArmLink { name: "plane".to_owned(), model }])
             .with_joints([false, true, true].map(joint).to_vec())
     }

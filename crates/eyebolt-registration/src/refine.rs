@@ -2,6 +2,7 @@
 
 mod evidence;
 mod joint_prior;
+mod places;
 mod summary;
 mod weighing;
 
@@ -113,7 +114,8 @@ pub struct Refinement {
     pub camera_from_base: Transform<Camera, Base>,
     /// How much farther the joints stand than they say, as far as the data tell.
     pub joint_offsets: JointOffsets,
-    /// Standard deviation of each of them, radians; infinite where nothing is determined.
+    /// Standard deviation of each of them by what is seen of that joint alone, whatever the others
+    /// are off by, radians; infinite where nothing is determined.
     pub joint_sigma_rad: [f64; MOST_JOINTS],
     /// Prior deviation of each of them that this came with, radians.
     pub joint_prior_rad: [f64; MOST_JOINTS],
@@ -158,10 +160,11 @@ pub fn refine(
     let mut stop = StopReason::IterationLimit;
     let mut iterations = 0;
     let mut last_step = Vector6::zeros();
-    let mut evidence = gather(arm, views, rasters, &state);
+    let places = places::places(views);
+    let mut evidence = gather(arm, views, rasters, &places, &state);
     while iterations < options.iterations {
         iterations += 1;
-        let weighing = Weighing::of(&evidence, &scales, &state, options);
+        let weighing = Weighing::of(arm, &evidence, &scales, &state, options);
         let sigma = weighing.sigma;
         let Some(step) = weighing.total(&evidence, &state).solve(1e-6) else {
             stop = StopReason::Underdetermined;
@@ -169,7 +172,7 @@ pub fn refine(
         };
         last_step = step.fixed_rows::<6>(0).into_owned();
         state = state.stepped(&step);
-        evidence = gather(arm, views, rasters, &state);
+        evidence = gather(arm, views, rasters, &places, &state);
         let settled = scales.surface_m <= 3.01 * sigma.surface_m.max(0.002)
             && scales.outline_px <= 3.01 * sigma.outline_px;
         if settled && negligible(&step) {
@@ -179,7 +182,7 @@ pub fn refine(
         scales.surface_m = (0.6 * scales.surface_m).max(3.0 * sigma.surface_m.max(0.002));
         scales.outline_px = (0.6 * scales.outline_px).max(3.0 * sigma.outline_px);
     }
-    let weighing = Weighing::of(&evidence, &scales, &state, options);
+    let weighing = Weighing::of(arm, &evidence, &scales, &state, options);
     let mut outcome = summary::summarise(&state, &evidence, &weighing);
     if outcome.stop != StopReason::Underdetermined {
         outcome.stop = stop;

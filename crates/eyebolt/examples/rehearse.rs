@@ -4,7 +4,7 @@
 //! ```text
 //! cargo run --release -p eyebolt --example rehearse -- [--seeds 30] [--first-seed 1] [--preset P]
 //!     [--sensor kinect-v1] [--backgrounds 10] [--frames 10] [--configurations 6]
-//!     [--joint-offset-deg 0] [--depth-scale 1]
+//!     [--joint-offset-deg 0] [--joint-offset-sigma-deg 0] [--depth-scale 1]
 //! ```
 //!
 //! One line for each seed and preset, then one JSON line with the figures of all. Without
@@ -100,6 +100,7 @@ fn rehearse(
         clutter: 8,
         faults: Faults {
             joint_offset: number::<f64>(flags, "joint-offset-deg", 0.0)?.to_radians(),
+            joint_offset_sigma: number::<f64>(flags, "joint-offset-sigma-deg", 0.0)?.to_radians(),
             depth_scale: number(flags, "depth-scale", 1.0)?,
             ..Faults::default()
         },
@@ -123,7 +124,7 @@ fn rehearse(
         seed: 1,
     };
     let calibration = pipeline::run(&request, &())?.calibration;
-    let truth = plan.camera_from_base();
+    let truth = plan.sought_camera_from_base();
     let expected = calibration.error.as_ref().map(|error| error.expected);
     Ok(Run {
         evaluation: calibration.camera_from_base.map(|pose| Evaluation::of(&pose, &truth)),

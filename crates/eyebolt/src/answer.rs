@@ -9,7 +9,7 @@ use crate::info::left_out;
 use crate::pipeline::{Outcome, Request};
 use crate::session::{Background, ImageSource, Session};
 use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Point3};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -30,7 +30,8 @@ pub struct Answer {
     /// Between which frames the answer runs.
     pub frames: Frames,
     /// Maps coordinates in the base frame to the depth optical frame; `null` if nothing was found.
-    /// The base frame is that of the base link where it stands, not as the first joint's zero has it.
+    /// The base frame is the one that the recorded joints refer to: where the first joint's zero is
+    /// off, it is turned with it, against the base link as it stands.
     pub camera_from_base: Option<Pose>,
     /// The other way round: the pose of the camera in the base frame.
     pub base_from_camera: Option<Pose>,
@@ -59,6 +60,10 @@ pub struct Answer {
     /// How much farther the joints stand than they say, from the base on: zeros that are off, as far
     /// as the data tell. Empty if nothing was found.
     pub joint_offsets: Vec<JointOffset>,
+    /// How far the end-effector is from where the recorded joints put it because their zeros are off:
+    /// the most of all configurations, millimetres; `null` if nothing was found. Whoever commands
+    /// joints, or computes poses from them, is off by this beside the calibration's own error.
+    pub end_effector_off_by_joints_mm: Option<f64>,
     /// One for each frame of the recording, frames of one configuration together.
     pub configurations: Vec<FrameOutcome>,
     /// How many frames of a bag did not take part, by reason: `moving`, `no_joint_state_near`...
@@ -239,6 +244,8 @@ impl Answer {
             joint_offsets: session
                 .map(|session| joint_offsets(session, calibration))
                 .unwrap_or_default(),
+            end_effector_off_by_joints_mm: session
+                .and_then(|session| end_effector_off_mm(session, calibration)),
             configurations: frame_outcomes(calibration),
             frames_left_out: left_out(request.recording),
             spare_configurations: session.map_or(0, |session| session.spare_configurations),
@@ -284,6 +291,16 @@ fn joint_offsets(session: &Session, calibration: &Calibration) -> Vec<JointOffse
         sigma_deg: sigma.to_degrees(),
     });
     told.filter(|joint| joint.sigma_deg.is_finite()).collect()
+}
+
+/// The most that offsets of joints move the end-effector in any configuration.
+fn end_effector_off_mm(session: &Session, calibration: &Calibration) -> Option<f64> {
+    let offsets = &calibration.refinement.as_ref()?.joint_offsets;
+    let moved = session.configurations.iter().map(|configuration| {
+        let tip = Point3::from(configuration.base_from_end_effector.translation_m());
+        1e3 * configuration.posture.moved_by(&session.arm, offsets, &tip).norm()
+    });
+    moved.max_by(f64::total_cmp)
 }
 
 fn is_zero(count: &usize) -> bool {

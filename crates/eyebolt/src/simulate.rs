@@ -152,7 +152,7 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
 }
 
 impl Plan<'_> {
-    /// The true pose of the base in the camera's optical frame, when the recording begins.
+    /// The true pose of the base link in the camera's optical frame, when the recording begins.
     pub fn camera_from_base(&self) -> Transform<Camera, Base> {
         self.base_from_camera.inverse()
     }

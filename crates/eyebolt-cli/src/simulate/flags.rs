@@ -180,6 +180,10 @@ pub struct FaultArguments {
     #[arg(long, value_name = "DEG", default_value_t = 0.0,
           value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
     joint_offset_deg: f64,
+    /// Standard deviation of what is added to that, another for each joint, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
+    joint_offset_sigma_deg: f64,
     /// Play of the joints' gears, degrees: joints lag by half of it, whichever way they came
     #[arg(long, value_name = "DEG", default_value_t = 0.0,
           value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
@@ -202,6 +206,7 @@ impl FaultArguments {
             focal_scale: self.focal_scale,
             centre_px: self.centre_px.unwrap_or_default(),
             joint_offset: self.joint_offset_deg.to_radians(),
+            joint_offset_sigma: self.joint_offset_sigma_deg.to_radians(),
             backlash: self.backlash_deg.to_radians(),
             time_skew_s: 1e-3 * self.time_skew_ms,
             bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),

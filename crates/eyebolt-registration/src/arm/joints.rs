@@ -14,6 +14,22 @@ pub struct ArmJoint {
     pub name: String,
     /// Which links of the [`ArmModel`] it carries, one entry for each of them.
     pub carries: Vec<bool>,
+    /// Whether its zero is part of what the base frame is: that of the first joint, which nothing
+    /// but a view of the base link itself tells from a turned base. The base frame is then the one
+    /// that the joint's own word refers to, and if its zero is off it is the links that the joint
+    /// does not carry that stand elsewhere, turned the other way.
+    pub defines_base: bool,
+}
+
+impl ArmJoint {
+    /// By how much a link turns about the joint's axis for each radian that the joint is off.
+    pub(crate) fn turns(&self, link: usize) -> f64 {
+        match (self.carries[link], self.defines_base) {
+            (true, false) => 1.0,
+            (false, true) => -1.0,
+            _ => 0.0,
+        }
+    }
 }
 
 /// Where a joint's axis is while the arm is in one configuration.
@@ -53,16 +69,17 @@ impl Posture {
     ///
     /// By the product of exponentials (Brockett, Robotic manipulators and the product of
     /// exponentials formula, 1984): each joint turns what it carries about the axis that it has in
-    /// this posture, the last joint first.
+    /// this posture, the last joint first. The one that defines the base turns what stands before it.
     #[must_use]
     pub fn moved(&self, arm: &ArmModel, offsets: &JointOffsets) -> Self {
         let (mut poses, mut axes) = (self.base_from_link.clone(), self.axes.clone());
         for (index, joint) in arm.joints.iter().enumerate().take(self.axes.len()).rev() {
-            let turn = self.axes[index].turn(offsets.rad[index]);
-            let carried = poses.iter_mut().zip(&joint.carries).filter(|(_, carries)| **carries);
-            for (pose, _) in carried {
+            let angle = offsets.rad[index];
+            for (link, pose) in poses.iter_mut().enumerate() {
+                let turn = self.axes[index].turn(joint.turns(link) * angle);
                 *pose = Transform::<Base, Link>::from_isometry(turn * pose.isometry());
             }
+            let turn = self.axes[index].turn(if joint.defines_base { 0.0 } else { angle });
             for axis in &mut axes[index + 1..] {
                 axis.through_in_base = turn * axis.through_in_base;
                 axis.along_in_base = turn.rotation * axis.along_in_base;
@@ -71,13 +88,28 @@ impl Posture {
         Self::new(arm, poses).with_axes(axes)
     }
 
-    /// The axes of those joints that carry `link`, with their place among the arm's joints.
-    pub(crate) fn axes_above<'a>(
+    /// The joints with their axes and their place among the arm's joints.
+    pub(crate) fn joints_with_axes<'a>(
         &'a self,
         arm: &'a ArmModel,
-        link: usize,
-    ) -> impl Iterator<Item = (usize, &'a JointAxis)> {
+    ) -> impl Iterator<Item = (usize, &'a ArmJoint, &'a JointAxis)> {
         let joints = arm.joints.iter().zip(&self.axes).enumerate();
-        joints.filter(move |(_, (joint, _))| joint.carries[link]).map(|(at, (_, axis))| (at, axis))
+        joints.map(|(place, (joint, axis))| (place, joint, axis))
+    }
+
+    /// How far a point that every joint carries moves if the joints stand farther by `offsets`, to
+    /// first order; base frame, metres.
+    pub fn moved_by(
+        &self,
+        arm: &ArmModel,
+        offsets: &JointOffsets,
+        point_in_base: &Point3<f64>,
+    ) -> Vector3<f64> {
+        let joints = self.joints_with_axes(arm).filter(|(_, joint, _)| !joint.defines_base);
+        let moves = joints.map(|(place, _, axis)| {
+            let lever = point_in_base - axis.through_in_base;
+            offsets.rad[place] * axis.along_in_base.cross(&lever)
+        });
+        moves.sum()
     }
 }

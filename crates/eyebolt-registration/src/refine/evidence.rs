@@ -1,6 +1,7 @@
 //! Residuals of one step, and how large they are.
 
 use super::RefineView;
+use super::places::Place;
 use super::weighing::Scales;
 use crate::arm::ArmModel;
 use crate::factors::{Factor, PosedArm, State, outline_factor, surface_factor};
@@ -22,14 +23,14 @@ pub(super) struct Evidence {
     /// Points of the arm, and how many pixels each stands for.
     pub points: usize,
     pub pixels_per_point: f64,
-    /// Views in all.
-    pub views: usize,
+    /// Where each link is.
+    pub places: Vec<Place>,
 }
 
 impl Evidence {
-    /// A link that stands still shows the same in each view, with the same errors: it counts once.
+    /// A link that several views show in the same place has the same errors in all: it counts once.
     pub fn share(&self, factor: &Factor) -> f64 {
-        if factor.still { (self.views as f64).recip() } else { 1.0 }
+        self.places[factor.link].share
     }
 }
 
@@ -38,10 +39,12 @@ pub(super) fn gather(
     arm: &ArmModel,
     views: &[RefineView<'_>],
     rasters: &mut [Raster],
+    places: &[Vec<Place>],
     state: &State,
 ) -> Vec<Evidence> {
     let pairs = views.par_iter().zip(rasters.par_iter_mut());
-    pairs.map(|(view, raster)| gather_one(arm, view, raster, state, views.len())).collect()
+    let pairs = pairs.zip(places);
+    pairs.map(|((view, raster), places)| gather_one(arm, view, raster, state, places)).collect()
 }
 
 fn gather_one(
@@ -49,7 +52,7 @@ fn gather_one(
     view: &RefineView<'_>,
     raster: &mut Raster,
     state: &State,
-    views: usize,
+    places: &[Place],
 ) -> Evidence {
     let camera = view.view.camera;
     let posture = &view.view.posture.moved(arm, &state.joint_offsets);
@@ -69,7 +72,7 @@ fn gather_one(
         cracks_per_factor: stride as f64,
         points: view.arm_points.len(),
         pixels_per_point: view.pixels_per_point,
-        views,
+        places: places.to_vec(),
     }
 }
 

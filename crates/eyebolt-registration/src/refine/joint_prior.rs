@@ -32,21 +32,38 @@ pub(super) fn estimate(
     weighing: &Weighing,
     state: &State,
 ) -> [f64; MOST_JOINTS] {
-    let open = Weighing { joint_prior_rad: [OPEN_RAD; MOST_JOINTS], ..*weighing };
-    let sum = open.total(evidence, state);
-    let all = sum.solve(1e-6).and_then(|step| {
-        let covariance = sandwich(evidence, &open, state, &sum, &step)?;
-        let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT).into_owned();
-        let block = covariance.fixed_view::<MOST_JOINTS, MOST_JOINTS>(FIRST_JOINT, FIRST_JOINT);
-        Some((Offsets::from(state.joint_offsets.rad) + joints, block * OVERCONFIDENCE))
-    });
-    let Some((offsets, covariance)) = all else { return [LEAST_RAD; MOST_JOINTS] };
-    most_likely(&offsets, &covariance).into()
+    let Some((mut offsets, covariance)) = seen(evidence, weighing, state) else {
+        return [LEAST_RAD; MOST_JOINTS];
+    };
+    // Of those that the others tell nothing of, nothing is to be learnt for the others either.
+    for joint in (0..MOST_JOINTS).filter(|joint| weighing.apart[*joint]) {
+        offsets[joint] = LARGEST_RAD;
+    }
+    most_likely(&offsets, &covariance, weighing.apart).into()
 }
 
-/// The deviations that make `offsets`, known up to `covariance`, most likely.
-fn most_likely(offsets: &Offsets, covariance: &Covariance) -> Offsets {
-    let mut apart = [false; MOST_JOINTS];
+/// What the evidence says of the offsets if they may be anything, and how surely.
+pub(super) fn seen(
+    evidence: &[Evidence],
+    weighing: &Weighing,
+    state: &State,
+) -> Option<(Offsets, Covariance)> {
+    let open = Weighing { joint_prior_rad: [OPEN_RAD; MOST_JOINTS], ..*weighing };
+    let sum = open.total(evidence, state);
+    let step = sum.solve(1e-6)?;
+    let covariance = sandwich(evidence, &open, state, &sum, &step)?;
+    let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT).into_owned();
+    let block = covariance.fixed_view::<MOST_JOINTS, MOST_JOINTS>(FIRST_JOINT, FIRST_JOINT);
+    Some((Offsets::from(state.joint_offsets.rad) + joints, block * OVERCONFIDENCE))
+}
+
+/// The deviations that make `offsets`, known up to `covariance`, most likely; those `apart` are off by
+/// their own.
+fn most_likely(
+    offsets: &Offsets,
+    covariance: &Covariance,
+    mut apart: [bool; MOST_JOINTS],
+) -> Offsets {
     let (mut best, mut deviations) = with_apart(offsets, covariance, &apart);
     loop {
         let others = (0..MOST_JOINTS).filter(|joint| !apart[*joint]).map(|joint| {
@@ -100,7 +117,8 @@ mod tests {
     fn prior_deg(offsets_deg: [f64; MOST_JOINTS]) -> [f64; MOST_JOINTS] {
         let variance = SIGMA_DEG.to_radians().powi(2);
         let offsets = Offsets::from(offsets_deg).map(f64::to_radians);
-        let prior = most_likely(&offsets, &(Covariance::identity() * variance));
+        let apart = [false; MOST_JOINTS];
+        let prior = most_likely(&offsets, &(Covariance::identity() * variance), apart);
         prior.map(f64::to_degrees).into()
     }
 

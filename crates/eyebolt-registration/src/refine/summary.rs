@@ -2,8 +2,9 @@
 
 use super::evidence::Evidence;
 use super::weighing::{Scales, Weighing};
-use super::{Refinement, StopReason, ViewFit};
-use crate::factors::{FIRST_JOINT, Factor, State, UNKNOWNS};
+use super::{Refinement, StopReason, ViewFit, joint_prior};
+use crate::arm::MOST_JOINTS;
+use crate::factors::{Factor, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::median;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -26,12 +27,10 @@ pub(super) fn summarise(state: &State, evidence: &[Evidence], weighing: &Weighin
     Refinement {
         camera_from_base: state.camera_from_base,
         joint_offsets: state.joint_offsets,
-        joint_sigma_rad: std::array::from_fn(|joint| {
-            let variance = |all: SMatrix<f64, UNKNOWNS, UNKNOWNS>| {
-                all[(FIRST_JOINT + joint, FIRST_JOINT + joint)]
-            };
-            all.map_or(f64::INFINITY, |all| variance(all).sqrt())
-        }),
+        joint_sigma_rad: joint_prior::seen(evidence, weighing, state)
+            .map_or([f64::INFINITY; MOST_JOINTS], |(_, covariance)| {
+                covariance.diagonal().map(f64::sqrt).into()
+            }),
         joint_prior_rad: weighing.joint_prior_rad,
         depth_scale: state.depth_scale,
         outline_px: state.outline_px,
@@ -60,9 +59,9 @@ fn determines_all(information: &SMatrix<f64, UNKNOWNS, UNKNOWNS>) -> bool {
     scaled.iter().all(|v| v.is_finite()) && scaled.symmetric_eigenvalues().min() > LEAST_EIGENVALUE
 }
 
-/// Covariance that does not trust the noise model: every link in every view is one patch whose
-/// residuals may all be off together (Liang and Zeger's sandwich, Biometrika 1986); a link that
-/// stands still is one in all views. Residuals are those after `step`.
+/// Covariance that does not trust the noise model: every link in every place is one patch whose
+/// residuals may all be off together, in all views that show it there (Liang and Zeger's sandwich,
+/// Biometrika 1986). Residuals are those after `step`.
 pub(super) fn sandwich(
     evidence: &[Evidence],
     weighing: &Weighing,
@@ -74,28 +73,22 @@ pub(super) fn sandwich(
         return None;
     }
     let bread = sum.information.try_inverse()?;
-    let links = evidence.iter().flat_map(|view| view.surface.iter().chain(&view.outline));
-    let links = links.map(|factor| factor.link + 1).max().unwrap_or(0);
-    let none = vec![[SVector::<f64, UNKNOWNS>::zeros(); 2]; links];
-    let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
-    let mut fill = |patches: &[[SVector<f64, UNKNOWNS>; 2]]| {
-        for score in patches.iter().flatten() {
-            filling += score * score.transpose();
-        }
-    };
-    let mut still = none.clone();
+    let places = evidence.iter().flat_map(|view| &view.places).map(|place| place.number + 1);
+    let none = [SVector::<f64, UNKNOWNS>::zeros(); 2];
+    let mut patches = vec![none; places.max().unwrap_or(0)];
     for view in evidence {
-        let mut moving = none.clone();
         let mut add = |factor: &Factor, kind: usize, weight: f64| {
             let residual = factor.residual + factor.jacobian.dot(step);
-            let patches = if factor.still { &mut still } else { &mut moving };
-            patches[factor.link][kind] += factor.jacobian * (weight * residual);
+            let place = view.places[factor.link].number;
+            patches[place][kind] += factor.jacobian * (weight * residual);
         };
         view.surface.iter().for_each(|factor| add(factor, 0, weighing.surface(view, factor)));
         view.outline.iter().for_each(|factor| add(factor, 1, weighing.outline(view, factor)));
-        fill(&moving);
     }
-    fill(&still);
+    let mut filling = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+    for score in patches.iter().flatten() {
+        filling += score * score.transpose();
+    }
     for prior in weighing.priors(state) {
         filling[(prior.unknown, prior.unknown)] += prior.deviation.powi(-2);
     }

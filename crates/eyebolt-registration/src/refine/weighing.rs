@@ -2,7 +2,7 @@
 
 use super::evidence::{Evidence, deviations};
 use super::{JointPrior, RefineOptions, joint_prior};
-use crate::arm::MOST_JOINTS;
+use crate::arm::{ArmModel, MOST_JOINTS};
 use crate::factors::{DEPTH_SCALE, FIRST_JOINT, Factor, OUTLINE_WIDTH, State, UNKNOWNS};
 use crate::normal_equations::NormalEquations;
 use crate::robust::geman_mcclure;
@@ -65,11 +65,14 @@ pub(super) struct Weighing {
     pub trust: Trust,
     /// Prior deviation of each joint's offset, radians.
     pub joint_prior_rad: [f64; MOST_JOINTS],
+    /// The joints of whose offsets the others tell nothing.
+    pub apart: [bool; MOST_JOINTS],
 }
 
 impl Weighing {
     /// Weighs `evidence` by its own deviations.
     pub fn of(
+        arm: &ArmModel,
         evidence: &[Evidence],
         scales: &Scales,
         state: &State,
@@ -81,6 +84,9 @@ impl Weighing {
             sigma,
             trust: options.trust,
             joint_prior_rad: [1.0; MOST_JOINTS],
+            apart: std::array::from_fn(|joint| {
+                arm.joints().get(joint).is_some_and(|joint| joint.defines_base)
+            }),
         };
         weighing.joint_prior_rad = match options.joint_prior {
             JointPrior::Known { rad } => rad,

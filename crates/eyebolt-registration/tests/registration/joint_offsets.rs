@@ -1,9 +1,11 @@
 use crate::refine::{observed, refined, starts, truth};
 use crate::strategies::config;
 use crate::synthetic_arm::{ARM, JOINTS, POSTURES, posture, scenes};
-use eyebolt_registration::{JointOffsets, Posture, RefineView, Refinement, Trust};
-use nalgebra::Point3;
+use eyebolt_geometry::Transform;
+use eyebolt_registration::{ArmModel, JointOffsets, Posture, RefineView, Refinement, Trust};
+use nalgebra::{Isometry3, Point3, Vector3};
 use proptest::prelude::*;
+use std::sync::LazyLock;
 
 fn offsets(limit: f64) -> impl Strategy<Value = JointOffsets> {
     [-limit..limit, -limit..limit, -limit..limit, -limit..limit].prop_map(joint_offsets)
@@ -42,6 +44,56 @@ proptest! {
         let twice = POSTURES[1].moved(&ARM, &a).moved(&ARM, &b);
         prop_assert!(apart(&twice, &POSTURES[1].moved(&ARM, &sum)) < 1e-12);
     }
+}
+
+/// The arm whose base frame is the one that its first joint refers to.
+static AS_TOLD: LazyLock<ArmModel> = LazyLock::new(|| {
+    let mut joints = ARM.joints().to_vec();
+    joints[0].defines_base = true;
+    ArmModel::new(ARM.links().to_vec()).with_joints(joints)
+});
+
+proptest! {
+    #![proptest_config(config(64))]
+
+    /// Seen from the base that the first joint refers to, its offset turns the foot back and nothing
+    /// else: all links together are as forward kinematics has them, in a base turned by that offset.
+    #[test]
+    fn the_first_joint_turns_what_stands_before_it(
+        joints in [-3.0..3.0_f64, -2.0..2.0_f64, -2.0..2.0_f64, -3.0..3.0_f64], by in offsets(0.5),
+    ) {
+        let farther = std::array::from_fn(|joint| joints[joint] + by.rad[joint]);
+        let turned = Isometry3::rotation(Vector3::z() * by.rad[0]);
+        let moved = posture(&joints).moved(&AS_TOLD, &by);
+        let poses = moved.base_from_link().iter();
+        let in_base = poses.map(|pose| Transform::from_isometry(turned * pose.isometry())).collect();
+        let moved = Posture::new(&AS_TOLD, in_base);
+        prop_assert!(apart(&moved, &posture(&farther)) < 1e-12);
+    }
+
+    /// How far a point on the fore arm goes, to first order.
+    #[test]
+    fn points_move_as_the_links_that_they_are_on(by in offsets(1e-4), x in -0.5..0.5_f64, y in -0.5..0.5_f64) {
+        for posture in POSTURES.iter() {
+            let (told, on_link) = (posture.base_from_link()[2], Point3::new(x, y, 0.2));
+            let moved = posture.moved(&AS_TOLD, &by).base_from_link()[2].point(&on_link);
+            let found = posture.moved_by(&AS_TOLD, &by, &told.point(&on_link));
+            prop_assert!((moved - told.point(&on_link) - found).norm() < 1e-7);
+        }
+    }
+}
+
+/// The same views a second time show the same errors: nothing is known better.
+#[test]
+fn views_of_the_same_places_count_once() {
+    let scenes = scenes(&truth(), None);
+    let once: Vec<RefineView<'_>> = observed(&scenes);
+    let twice: Vec<RefineView<'_>> = once.iter().chain(&once).cloned().collect();
+    let [once, twice] = [once, twice].map(|views| refined(&views, &truth(), Trust::Both));
+    let off = (twice.information - once.information).norm() / once.information.norm();
+    assert!(off < 1e-6, "information of the same views twice is off by {off}");
+    let off = (twice.covariance - once.covariance).norm() / once.covariance.norm();
+    assert!(off < 1e-6, "covariance of the same views twice is off by {off}");
 }
 
 /// Joints that are all off, one way or the other.

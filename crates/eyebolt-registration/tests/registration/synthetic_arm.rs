@@ -36,6 +36,7 @@ pub static ARM: LazyLock<ArmModel> = LazyLock::new(|| {
     let joint = |(name, first): (&str, usize)| ArmJoint {
         name: name.to_owned(),
         carries: (0..3).map(|link| link >= first).collect(),
+        defines_base: false,
     };
     ArmModel::new(links.map(link).collect()).with_joints(carried.map(joint).to_vec())
 });

@@ -5,9 +5,8 @@
 //! what is wrong in every frame alike, which neither of these can see: it shows where the two kinds
 //! of evidence, surfaces and outlines, disagree.
 //!
-//! Offsets of joints are unknowns in all three. One that nothing determines, such as the first joint's
-//! where the base link is out of view, is as uncertain as this arm's offsets are large, and the pose
-//! is with it.
+//! Offsets of joints are unknowns in all three. One that nothing determines is as uncertain as this
+//! arm's offsets are large, and the pose is with it.
 
 use super::Work;
 use crate::refine::{LEAVE_ONE_OUT, ONE_SIDED};

@@ -29,6 +29,7 @@ const OUTSIDE_M: f64 = 0.01;
 /// Zeros of arms that were put together by hand are off by a degree; a joint that seems to be off by
 /// more says that its recorded positions are another's.
 const JOINT_OFF_RAD: f64 = 0.035;
+const JOINT_OFF_SIGMAS: f64 = 1.0;
 /// Share of configurations that may have a misplaced link before the joints themselves are in
 /// doubt.
 const MISPLACED_SHARE: f64 = 0.25;
@@ -245,11 +246,14 @@ fn misplaced(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
         .then_some(Reason::Misplaced { misplaced, judged })
 }
 
-/// The joint that is farthest off, if that is too far.
+/// The joint that is farthest off, if that surely is too far.
 fn joint_off(evidence: &Evidence<'_>) -> Option<Reason> {
-    let joints = evidence.joints.iter().zip(evidence.refinement.joint_offsets.rad);
-    let (joint, rad) = joints.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
-    (rad.abs() > JOINT_OFF_RAD).then(|| Reason::JointOff {
+    let offsets = evidence.refinement.joint_offsets.rad;
+    let joints = evidence.joints.iter().zip(offsets).zip(evidence.error.joint_sigma_rad);
+    let surely = |rad: f64, sigma: f64| rad.abs() - JOINT_OFF_SIGMAS * sigma;
+    let ((joint, rad), sigma) =
+        joints.max_by(|((_, a), p), ((_, b), q)| surely(*a, *p).total_cmp(&surely(*b, *q)))?;
+    (surely(rad, sigma) > JOINT_OFF_RAD).then(|| Reason::JointOff {
         joint: joint.name.clone(),
         offset_deg: rad.to_degrees(),
         limit_deg: JOINT_OFF_RAD.to_degrees(),

@@ -17,7 +17,7 @@ pub(super) fn offered(arm: &Arm, links: &[usize], model: ArmModel) -> (Vec<usize
     let turns = |kind| matches!(kind, JointKind::Revolute | JointKind::Continuous);
     let mut indices = Vec::new();
     let mut joints = Vec::new();
-    for name in arm.required_joints() {
+    for (place, name) in arm.required_joints().into_iter().enumerate() {
         let Some(index) = robot.joint_index(name) else { continue };
         let Some(joint) = robot.joints.get(index) else { continue };
         if !turns(joint.kind) || joint.mimic.is_some() || followed(index) {
@@ -25,7 +25,7 @@ pub(super) fn offered(arm: &Arm, links: &[usize], model: ArmModel) -> (Vec<usize
         }
         let carries = links.iter().map(|link| carries(robot, index, *link)).collect();
         indices.push(index);
-        joints.push(ArmJoint { name: name.to_owned(), carries });
+        joints.push(ArmJoint { name: name.to_owned(), carries, defines_base: place == 0 });
     }
     (indices, model.with_joints(joints))
 }

@@ -19,6 +19,8 @@ pub struct Faults {
     pub centre_px: [f64; 2],
     /// How far each joint that turns is from where it says, one way or the other, radians.
     pub joint_offset: f64,
+    /// Standard deviation of what is added to that, another for each joint, radians.
+    pub joint_offset_sigma: f64,
     /// Play of the joints that turn, from one side to the other, radians: they lag by half of it.
     pub backlash: f64,
     /// Added to the stamps of depth, seconds.
@@ -35,6 +37,7 @@ impl Default for Faults {
             focal_scale: 1.0,
             centre_px: [0.0; 2],
             joint_offset: 0.0,
+            joint_offset_sigma: 0.0,
             backlash: 0.0,
             time_skew_s: 0.0,
             bump: None,
@@ -54,6 +57,7 @@ impl Faults {
             ("centre_x_px", self.centre_px[0], 0.0),
             ("centre_y_px", self.centre_px[1], 0.0),
             ("joint_offset_deg", self.joint_offset.to_degrees(), 0.0),
+            ("joint_offset_sigma_deg", self.joint_offset_sigma.to_degrees(), 0.0),
             ("backlash_deg", self.backlash.to_degrees(), 0.0),
             ("time_skew_ms", 1e3 * self.time_skew_s, 0.0),
             ("bump_mm", 1e3 * bump_m, 0.0),
@@ -103,10 +107,40 @@ impl Encoders {
                 matches!(robot.joints[index].kind, JointKind::Revolute | JointKind::Continuous)
             })
         };
-        let joints = arm.required_joints().into_iter().filter(turns);
+        let joints: Vec<&str> = arm.required_joints().into_iter().filter(turns).collect();
         let mut sign = || if random.uniform() < 0.5 { -1.0 } else { 1.0 };
-        let offsets = joints.map(|name| (name.to_owned(), sign() * faults.joint_offset)).collect();
+        let equal: Vec<f64> = joints.iter().map(|_| sign() * faults.joint_offset).collect();
+        let offset = |equal: f64| equal + faults.joint_offset_sigma * random.normal();
+        let offsets = equal.into_iter().map(offset);
+        let offsets = joints.into_iter().map(str::to_owned).zip(offsets).collect();
         Self { offsets, backlash: faults.backlash }
+    }
+
+    /// How much farther each joint stands than it says, radians.
+    pub(super) fn offsets(&self) -> BTreeMap<String, f64> {
+        self.offsets.iter().map(|(name, told)| (name.clone(), -told)).collect()
+    }
+
+    /// From the base as the first joint's word has it, in which its links are where it says, to the
+    /// base link.
+    pub(super) fn base_from_told_base(&self, arm: &Arm) -> Transform<Base, Base> {
+        let none = Transform::identity();
+        let names = arm.required_joints();
+        let Some((first, offset)) =
+            names.first().and_then(|name| self.offsets.get_key_value(*name))
+        else {
+            return none;
+        };
+        let robot = arm.robot();
+        let Some(index) = robot.joint_index(first) else { return none };
+        let child_at = |position: f64| {
+            let at =
+                |name: &&str| ((*name).to_owned(), if *name == first { position } else { 0.0 });
+            let poses = arm.link_poses_with_defaults(&names.iter().map(at).collect()).ok()?;
+            poses.base_from_links.get(robot.joints[index].child).copied().flatten()
+        };
+        let turned = child_at(-offset).zip(child_at(0.0));
+        turned.map_or(none, |(told, zero)| told * zero.inverse())
     }
 
     /// What they say at `joints`, on the way from `before` to `target` or at rest there: the gear

@@ -9,6 +9,7 @@ use eyebolt_recording::{
 };
 use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
+use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
@@ -47,8 +48,7 @@ impl Plan<'_> {
             ControlFlow::Break(()) => Err(WriteError::Stopped),
         };
         self.write_backgrounds(&mut writer, &mut told)?;
-        let encoders =
-            Encoders::new(arm, &scenario.faults, &mut Choice::Encoders.of(scenario.seed));
+        let encoders = self.encoders();
         let mut done = 0;
         for (index, pose) in self.poses.iter().enumerate() {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
@@ -138,11 +138,28 @@ impl Plan<'_> {
         stamp_ns + (1e9 * self.scenario.faults.time_skew_s) as i64
     }
 
+    fn encoders(&self) -> Encoders {
+        let Scenario { arm, faults, seed, .. } = &self.scenario;
+        Encoders::new(arm, faults, &mut Choice::Encoders.of(*seed))
+    }
+
+    /// What a calibration should find when the recording begins: where the camera has the base that
+    /// the joints speak of. Where the first joint is off that one is turned against the base link.
+    pub fn sought_camera_from_base(&self) -> Transform<Camera, Base> {
+        self.camera_from_base() * self.encoders().base_from_told_base(self.scenario.arm)
+    }
+
+    /// How much farther each joint that turns stands than it says, radians.
+    pub fn joint_offsets(&self) -> BTreeMap<String, f64> {
+        self.encoders().offsets()
+    }
+
     fn truth(&self, timeline: &Timeline) -> Truth {
+        let base_from_told = self.encoders().base_from_told_base(self.scenario.arm);
         let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len());
         let after = after.map(|base_from_camera| CameraMoved {
             stamp_ns: self.skewed_ns(timeline.begin_ns(self.bumped_at())),
-            camera_from_base: base_from_camera.inverse(),
+            camera_from_base: base_from_camera.inverse() * base_from_told,
         });
         let preset = match self.scenario.viewpoint {
             Viewpoint::Preset(preset) => Some(preset.name.to_owned()),
@@ -154,7 +171,7 @@ impl Plan<'_> {
             sensor: self.scenario.sensor.name.to_owned(),
             preset,
             seed: self.scenario.seed,
-            camera_from_base: self.camera_from_base(),
+            camera_from_base: self.sought_camera_from_base(),
             camera_from_base_after: after.into_iter().collect(),
             faults: self.scenario.faults.named(),
         }

@@ -3,6 +3,7 @@
 use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, assert_same, planned, small};
 use eyebolt::simulate::{Faults, Scenario, SimulateError, plan};
 use eyebolt_robot::JointPositions;
+use nalgebra::Vector3;
 use serde_json::json;
 use std::sync::LazyLock;
 
@@ -38,7 +39,13 @@ fn joint_offsets_are_in_what_the_joints_say_alone() {
         assert!(same, "an encoder is off by the same everywhere");
     }
     assert!(offsets[0].iter().any(|o| *o > 0.0) && offsets[0].iter().any(|o| *o < 0.0));
-    assert_eq!(wrong.truth.camera_from_base, RIGHT.truth.camera_from_base);
+    // The base that the joints speak of is turned about the first joint's axis, which is the base's z.
+    let turned = RIGHT.truth.camera_from_base.inverse() * wrong.truth.camera_from_base;
+    let first = ARM.required_joints()[0];
+    let told = wrong.joints()[0].get(first).unwrap() - RIGHT.joints()[0].get(first).unwrap();
+    let expected = Vector3::new(0.0, 0.0, -told);
+    assert!((turned.rotation().scaled_axis() - expected).norm() < 1e-9, "{turned:?}");
+    assert!(turned.translation_m().norm() < 1e-9, "{turned:?}");
 }
 
 /// Joints lag behind: those that came from below are not yet where they say.
@@ -123,14 +130,15 @@ fn faults_are_named_with_their_units() {
         focal_scale: 0.99,
         centre_px: [1.0, 2.0],
         joint_offset: 1f64.to_radians(),
+        joint_offset_sigma: 0.5f64.to_radians(),
         backlash: 2f64.to_radians(),
         time_skew_s: 0.05,
         bump: Some([0.02, 3f64.to_radians()]),
     };
     let expected = json!({
         "depth_scale": 1.01, "depth_offset_mm": 3.0, "focal_scale": 0.99, "centre_x_px": 1.0,
-        "centre_y_px": 2.0, "joint_offset_deg": 1.0, "backlash_deg": 2.0, "time_skew_ms": 50.0,
-        "bump_mm": 20.0, "bump_deg": 3.0,
+        "centre_y_px": 2.0, "joint_offset_deg": 1.0, "joint_offset_sigma_deg": 0.5, "backlash_deg": 2.0,
+        "time_skew_ms": 50.0, "bump_mm": 20.0, "bump_deg": 3.0,
     });
     let named = faults.named();
     assert_eq!(named.len(), expected.as_object().unwrap().len());
