@@ -29,7 +29,7 @@ const OUTSIDE_M: f64 = 0.01;
 /// Zeros of arms that were put together by hand are off by a degree; a joint that seems to be off by
 /// more says that its recorded positions are another's.
 const JOINT_OFF_RAD: f64 = 0.035;
-const JOINT_OFF_SIGMAS: f64 = 1.0;
+const FIRST_JOINT_SIGMAS: f64 = 2.0;
 /// Share of configurations that may have a misplaced link before the joints themselves are in
 /// doubt.
 const MISPLACED_SHARE: f64 = 0.25;
@@ -246,14 +246,19 @@ fn misplaced(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
         .then_some(Reason::Misplaced { misplaced, judged })
 }
 
-/// The joint that is farthest off, if that surely is too far.
+/// The joint that is farthest off, if that is too far.
 fn joint_off(evidence: &Evidence<'_>) -> Option<Reason> {
     let offsets = evidence.refinement.joint_offsets.rad;
     let joints = evidence.joints.iter().zip(offsets).zip(evidence.error.joint_sigma_rad);
-    let surely = |rad: f64, sigma: f64| rad.abs() - JOINT_OFF_SIGMAS * sigma;
-    let ((joint, rad), sigma) =
-        joints.max_by(|((_, a), p), ((_, b), q)| surely(*a, *p).total_cmp(&surely(*b, *q)))?;
-    (surely(rad, sigma) > JOINT_OFF_RAD).then(|| Reason::JointOff {
+    // The first joint's is no part of the pose and often hardly seen: only what is sure counts. Others
+    // take the pose along with them, sure or not: two exchanged names look like uncertain offsets.
+    let by = |joint: &ArmJoint, rad: f64, sigma: f64| match joint.defines_base {
+        true => rad.abs() - FIRST_JOINT_SIGMAS * sigma,
+        false => rad.abs(),
+    };
+    let far = joints.map(|((joint, rad), sigma)| (joint, rad, by(joint, rad, sigma)));
+    let (joint, rad, far) = far.max_by(|(.., a), (.., b)| a.total_cmp(b))?;
+    (far > JOINT_OFF_RAD).then(|| Reason::JointOff {
         joint: joint.name.clone(),
         offset_deg: rad.to_degrees(),
         limit_deg: JOINT_OFF_RAD.to_degrees(),
