@@ -146,6 +146,13 @@ fn evidence(answer: &Answer, notes: &mut Vec<String>) {
             joint.joint, joint.offset_deg, joint.sigma_deg
         ));
     }
+    let notable = answer.joint_offsets.iter().any(|joint| joint.is_notable());
+    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| notable) {
+        note(format!(
+            "Unless the joints' zeros are corrected, the end-effector is up to {mm:.1} mm from where they \
+             put it, whatever the calibration."
+        ));
+    }
     if let Some(px) = answer.outline_excess_px.filter(|px| px.abs() > NOTABLE_EXCESS_PX) {
         note(format!(
             "The outline seen is {:.1} pixels {} than the arm's on each side: masks, or depth at edges, \
