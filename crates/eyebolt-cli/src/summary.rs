@@ -34,15 +34,15 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let joints = answer.assumed_joints.join(", ");
         let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
     }
-    for joint in answer.joint_offsets.iter().filter(|joint| joint.is_notable()) {
+    for joint in answer.notable_joint_offsets() {
         let _ = writeln!(
             text,
             "  {} seems to stand {:+.2} ± {:.2} degrees from where it says: allowed for",
             joint.joint, joint.offset_deg, joint.sigma_deg
         );
     }
-    let notable = answer.joint_offsets.iter().any(|joint| joint.is_notable());
-    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| notable) {
+    let any_notable = answer.notable_joint_offsets().next().is_some();
+    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| any_notable) {
         let _ = writeln!(
             text,
             "  unless the joints' zeros are corrected, the end-effector is up to {mm:.1} mm from \

@@ -92,8 +92,7 @@ pub fn check(graph: &Graph, parameters: &Parameters, batch: &Batch) -> Result<()
     if !batch.is_for(graph) {
         return Err(Error::input("batch", "made for another network"));
     }
-    let lengths = parameters.values().iter().map(Vec::len);
-    if !lengths.eq(graph.parameters().iter().map(|spec| spec.len())) {
+    if !graph.has_parameters(parameters.values()) {
         return Err(Error::input("parameters", "made for another network"));
     }
     Ok(())
@@ -143,12 +142,8 @@ pub fn check_output_gradients<T: Copy + Default>(
 /// The first that is.
 pub fn check_outputs(outputs: &[Matrix]) -> Result<(), Error> {
     for (index, output) in outputs.iter().enumerate() {
-        if let Some(at) = output.values().iter().position(|value| !value.is_finite()) {
-            let (row, channel) = (at / output.channels(), at % output.channels());
-            let problem = format!(
-                "row {row}, channel {channel} is {}: features or weights are too large",
-                output.values()[at]
-            );
+        if let Some(bad) = output.first_not_finite() {
+            let problem = format!("{bad}: features or weights are too large");
             return Err(Error::network(format!("output {index}"), problem));
         }
     }

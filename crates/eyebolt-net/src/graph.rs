@@ -145,6 +145,11 @@ impl Graph {
         &self.parameters
     }
 
+    /// Whether these are as many values for each parameter as it has.
+    pub(crate) fn has_parameters<T>(&self, values: &[Vec<T>]) -> bool {
+        self.parameters.iter().map(ParameterSpec::len).eq(values.iter().map(Vec::len))
+    }
+
     /// In order: the inputs of an operation come before it.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes

@@ -86,14 +86,15 @@ impl Matrix<f32> {
     /// # Errors
     /// The first that is, by row and channel.
     pub fn check_finite(&self, field: &str) -> Result<(), Error> {
-        let Some(at) = self.values.iter().position(|value| !value.is_finite()) else {
-            return Ok(());
-        };
-        let (row, channel) = (at / self.channels.max(1), at % self.channels.max(1));
-        Err(Error::input(
-            field,
-            format!("row {row}, channel {channel} is {}; drop such points", self.values[at]),
-        ))
+        let bad = self.first_not_finite();
+        bad.map_or(Ok(()), |bad| Err(Error::input(field, format!("{bad}; drop such points"))))
+    }
+
+    /// What is said of the first value that is NaN or infinite, if there is one.
+    pub(crate) fn first_not_finite(&self) -> Option<String> {
+        let at = self.values.iter().position(|value| !value.is_finite())?;
+        let (row, channel) = (at / self.channels, at % self.channels);
+        Some(format!("row {row}, channel {channel} is {}", self.values[at]))
     }
 }
 

@@ -35,8 +35,7 @@ pub struct Case<'a, T> {
 
 impl<T: Real> Case<'_, T> {
     fn check(&self) -> Result<(), Error> {
-        let lengths = self.graph.parameters().iter().map(|spec| spec.len());
-        if !self.batch.is_for(self.graph) || !self.parameters.iter().map(Vec::len).eq(lengths) {
+        if !self.batch.is_for(self.graph) || !self.graph.has_parameters(self.parameters) {
             return Err(Error::input("batch or parameters", "made for another network"));
         }
         let shape = |matrix: &Matrix<T>| (matrix.rows(), matrix.channels());

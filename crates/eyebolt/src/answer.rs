@@ -155,7 +155,7 @@ pub struct JointOffset {
 
 impl JointOffset {
     /// Whether the joint's zero is surely off, and by enough to be looked into.
-    pub fn is_notable(&self) -> bool {
+    fn is_notable(&self) -> bool {
         self.offset_deg.abs() > NOTABLE_OFFSET_DEG.max(NOTABLE_SIGMAS * self.sigma_deg)
     }
 }
@@ -276,6 +276,13 @@ impl Answer {
         let mut text = serde_json::to_string_pretty(self).expect("an answer is plain data");
         text.push('\n');
         text
+    }
+}
+
+impl Answer {
+    /// The joints whose zeros are surely off, from the base on.
+    pub fn notable_joint_offsets(&self) -> impl Iterator<Item = &JointOffset> {
+        self.joint_offsets.iter().filter(|joint| joint.is_notable())
     }
 }
 

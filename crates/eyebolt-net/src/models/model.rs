@@ -23,8 +23,7 @@ impl Model {
     /// parameters are another network's.
     pub fn new(description: ModelDescription, parameters: Parameters) -> Result<Self, Error> {
         let graph = description.graph()?;
-        let lengths = parameters.values().iter().map(Vec::len);
-        if !lengths.eq(graph.parameters().iter().map(|spec| spec.len())) {
+        if !graph.has_parameters(parameters.values()) {
             return Err(Error::input("parameters", "made for another network"));
         }
         Ok(Self { description, graph, parameters })

@@ -18,8 +18,7 @@ pub(crate) fn entries(
     prefix: &str,
     values: &[Vec<f32>],
 ) -> Result<Vec<Stored>, Error> {
-    let specs = graph.parameters();
-    if !values.iter().map(Vec::len).eq(specs.iter().map(ParameterSpec::len)) {
+    if !graph.has_parameters(values) {
         return Err(Error::input("parameters", "made for another network"));
     }
     let entry = |(spec, values): (&ParameterSpec, &Vec<f32>)| {
@@ -27,7 +26,7 @@ pub(crate) fn entries(
         numbers::check_finite(file, &name, values)?;
         Ok((name, spec.shape.clone(), numbers::encode(values)))
     };
-    specs.iter().zip(values).map(entry).collect()
+    graph.parameters().iter().zip(values).map(entry).collect()
 }
 
 /// The bytes of a file. The same ones for the same tensors, in whatever order.

@@ -1,11 +1,10 @@
 //! From nothing to an answer, against where the camera really was.
 
-use crate::stage::{ARM, CACHE, Recorded, planned, preset, shackle, small};
+use crate::stage::{Recorded, planned, preset, shackle, small};
 use eyebolt::answer::Answer;
-use eyebolt::calibrate::{Limits, Verdict};
+use eyebolt::calibrate::Verdict;
 use eyebolt::evaluate::Evaluation;
-use eyebolt::pipeline::{self, Request};
-use eyebolt::record::RecordOptions;
+use eyebolt::pipeline;
 use eyebolt::simulate::Scenario;
 use eyebolt_recording::{RecordingInfo, RecordingWriter, Truth};
 use eyebolt_render::Sensor;
@@ -25,20 +24,9 @@ fn scenario(name: &str, seed: u64) -> Scenario<'static> {
     }
 }
 
-fn request(recorded: &Recorded) -> Request<'_> {
-    Request {
-        recording: &recorded.recording,
-        arm: &ARM,
-        cache: &CACHE,
-        options: RecordOptions::default(),
-        limits: Limits::default(),
-        seed: 1,
-    }
-}
-
 /// Calibrates, wants trust and an answer within what can be reached; what became of the background.
 fn assert_found(recorded: &Recorded, truth: &Truth) -> Option<&'static str> {
-    let request = request(recorded);
+    let request = recorded.request();
     let outcome = pipeline::run(&request, &()).unwrap();
     let pose = outcome.calibration.camera_from_base.unwrap();
     let off = Evaluation::of(&pose, &truth.camera_from_base);
@@ -109,7 +97,7 @@ fn clocks_that_differ_never_make_a_wrong_answer_trusted() {
         Scenario { moving_frames: 20, backgrounds: 0, ..scenario("paper-test-p1", 1) };
     scenario.faults.time_skew_s = 0.3;
     let recorded = Recorded::of(scenario);
-    let request = request(&recorded);
+    let request = recorded.request();
     let calibration = pipeline::run(&request, &()).unwrap().calibration;
     let pose = calibration.camera_from_base;
     let off = pose.map(|pose| Evaluation::of(&pose, &recorded.truth.camera_from_base));

@@ -2,9 +2,9 @@
 
 use crate::stage::{ARM, CACHE, Recorded, planned, preset, small};
 use eyebolt::answer::Answer;
-use eyebolt::calibrate::{Limits, Reason, Verdict};
+use eyebolt::calibrate::{Reason, Verdict};
 use eyebolt::evaluate::Evaluation;
-use eyebolt::pipeline::{self, Request};
+use eyebolt::pipeline;
 use eyebolt::record::{self, RecordOptions};
 use eyebolt::simulate::{Faults, Scenario};
 use eyebolt_geometry::{Base, Transform};
@@ -19,17 +19,6 @@ fn scenario(name: &str, seed: u64, faults: Faults) -> Scenario<'static> {
     Scenario { sensor, viewpoint, seed, faults, ..counts }
 }
 
-fn request(recorded: &Recorded) -> Request<'_> {
-    Request {
-        recording: &recorded.recording,
-        arm: &ARM,
-        cache: &CACHE,
-        options: RecordOptions::default(),
-        limits: Limits::default(),
-        seed: 1,
-    }
-}
-
 /// The found offset of each joint is the one that was put in, and the answer is off by no more than
 /// it says. The base is the one that the first joint refers to, so that its offset is no error.
 fn assert_honest(name: &str, seed: u64, equal_deg: f64, sigma_deg: f64) {
@@ -38,7 +27,7 @@ fn assert_honest(name: &str, seed: u64, equal_deg: f64, sigma_deg: f64) {
     let faults = Faults { joint_offset, joint_offset_sigma, ..Faults::default() };
     let plan = planned(scenario(name, seed, faults));
     let recorded = Recorded::of_plan(&plan);
-    let request = request(&recorded);
+    let request = recorded.request();
     let outcome = pipeline::run(&request, &()).unwrap();
     assert_eq!(outcome.calibration.verdict, Verdict::Trusted);
     let pose = outcome.calibration.camera_from_base.unwrap();
@@ -49,7 +38,7 @@ fn assert_honest(name: &str, seed: u64, equal_deg: f64, sigma_deg: f64) {
     assert!(off.translation_mm < 2.0 * expected.translation_mm, "{off:?}, {expected:?}");
     assert!(off.rotation_deg < 2.0 * expected.rotation_deg, "{off:?}, {expected:?}");
     assert_eq!(answer.joint_offsets.len(), 7);
-    let notable = answer.joint_offsets.iter().filter(|joint| joint.is_notable());
+    let notable = answer.notable_joint_offsets();
     assert!(notable.count() >= 1, "{:?}", answer.joint_offsets);
     let truth = plan.joint_offsets();
     for joint in &answer.joint_offsets {
@@ -65,7 +54,7 @@ fn assert_honest(name: &str, seed: u64, equal_deg: f64, sigma_deg: f64) {
 fn a_joint_that_is_off_by_degrees_is_anothers() {
     let faults = Faults { joint_offset: 5.0_f64.to_radians(), ..Faults::default() };
     let recorded = Recorded::of(scenario("paper-test-p2", 1, faults));
-    let verdict = pipeline::run(&request(&recorded), &()).unwrap().calibration.verdict;
+    let verdict = pipeline::run(&recorded.request(), &()).unwrap().calibration.verdict;
     let Verdict::Refused(reasons) = verdict else { panic!("joints 5 degrees off are trusted") };
     let is_joint_off = |reason: &Reason| matches!(reason, Reason::JointOff { .. });
     assert!(reasons.iter().any(is_joint_off), "{reasons:?}");

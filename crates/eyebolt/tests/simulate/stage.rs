@@ -1,5 +1,8 @@
 //! Simulations for tests.
 
+use eyebolt::calibrate::Limits;
+use eyebolt::pipeline::Request;
+use eyebolt::record::RecordOptions;
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Plan, Preset, Scenario, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, DepthImage, Frame, Transform};
@@ -87,6 +90,18 @@ impl Recorded {
         std::fs::write(&path, bytes).unwrap();
         let recording = Recording::open(&path, &BagOptions::default()).unwrap();
         Self { recording, truth: read_truth(&path).unwrap(), _folder: folder }
+    }
+
+    /// How it is calibrated, as a user would.
+    pub fn request(&self) -> Request<'_> {
+        Request {
+            recording: &self.recording,
+            arm: &ARM,
+            cache: &CACHE,
+            options: RecordOptions::default(),
+            limits: Limits::default(),
+            seed: 1,
+        }
     }
 
     pub fn count(&self) -> usize {

@@ -139,15 +139,15 @@ fn evidence(answer: &Answer, notes: &mut Vec<String>) {
             100.0 * scale
         ));
     }
-    for joint in answer.joint_offsets.iter().filter(|joint| joint.is_notable()) {
+    for joint in answer.notable_joint_offsets() {
         note(format!(
             "{} seems to stand {:+.2} ± {:.2} degrees from where it says: check its zero, and that the \
              robot description is this arm's. The answer allows for it.",
             joint.joint, joint.offset_deg, joint.sigma_deg
         ));
     }
-    let notable = answer.joint_offsets.iter().any(|joint| joint.is_notable());
-    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| notable) {
+    let any_notable = answer.notable_joint_offsets().next().is_some();
+    if let Some(mm) = answer.end_effector_off_by_joints_mm.filter(|_| any_notable) {
         note(format!(
             "Unless the joints' zeros are corrected, the end-effector is up to {mm:.1} mm from where they \
              put it, whatever the calibration."
