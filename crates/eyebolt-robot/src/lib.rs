@@ -9,6 +9,7 @@
 mod arm;
 mod error;
 mod fingerprint;
+mod input;
 mod joint_positions;
 mod mesh;
 mod packages;
@@ -20,6 +21,7 @@ mod xml;
 pub use arm::{Arm, LinkPoses, OutsideLimits, PosesWithDefaults};
 pub use error::{KinematicsError, RobotError};
 pub use fingerprint::{Fingerprint, body_fingerprint, link_fingerprint};
+pub use input::Input;
 pub use joint_positions::JointPositions;
 pub use mesh::{
     MAX_MESH_BYTES, MAX_TRIANGLES, MeshError, Prefer, TriangleMesh, link_mesh, load_body,
