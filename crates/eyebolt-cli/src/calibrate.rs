@@ -1,19 +1,20 @@
 //! `eyebolt calibrate`.
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
+use crate::names;
 use crate::output::{self, Destination};
 use crate::progress::Bar;
 use crate::summary;
 use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
-use eyebolt::pipeline::{self, Outcome, Request};
-use eyebolt::progress::{Progress, Step};
+use eyebolt::observations::Configuration;
+use eyebolt::pipeline::{self, Failure, Outcome, Request};
+use eyebolt::progress::Step;
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
-use eyebolt::session::Configuration;
-use eyebolt_recording::Recording;
+use eyebolt_recording::{FrameSource, Recording};
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
@@ -29,7 +30,7 @@ pub struct Arguments {
     /// Find the arm's pixels by what moved, even if the recording has masks
     #[arg(long)]
     no_masks: bool,
-    /// Of more configurations, use those that differ most; time grows with the square
+    /// Of more configurations, use those that differ most
     #[arg(long, value_name = "COUNT", default_value_t = 30, value_parser = clap::value_parser!(u16).range(3..))]
     max_configurations: u16,
     /// Draw the posed arm over each frame, as PNG files in this folder
@@ -65,7 +66,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let destination = Destination::new(&arguments.output, arguments.force)?;
-    let bar = Bar::new();
+    let bar = Bar::new()?;
     let recording = arguments.recording.open()?;
     if let Some(folder) = &arguments.save_overlay {
         check_overlays(folder, &recording, arguments.force)?;
@@ -74,21 +75,19 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         check_report(report, &destination, arguments.force)?;
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
-    let cache = arguments.cache.open();
     let request = Request {
-        recording: &recording,
-        arm: &arm,
-        cache: &cache,
+        cache: arguments.cache.open(),
         options: RecordOptions {
             use_masks: !arguments.no_masks,
             most_configurations: usize::from(arguments.max_configurations),
         },
         limits: limits(arguments),
         seed: arguments.seed,
+        ..Request::new(&recording, &arm)
     };
     let outcome = pipeline::run(&request, &bar)
         .map_err(|error| named(error, &arguments.recording.recording))?;
-    bar.begin(Step::Report);
+    Step::Report.begin(&bar)?;
     let pictures = draw(arguments, &recording, &outcome);
     let saved = match &arguments.save_overlay {
         Some(folder) => save_overlays(folder, &outcome, &pictures, arguments.force),
@@ -108,12 +107,14 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
 }
 
 /// The error, with the recording where that is what does not fit and the error names no file.
-fn named(error: RecordError, recording: &Path) -> anyhow::Error {
+fn named(error: Failure, recording: &Path) -> anyhow::Error {
     let in_frame = matches!(
         error,
-        RecordError::Kinematics { .. }
-            | RecordError::MaskSize { .. }
-            | RecordError::Projection { .. }
+        Failure::Record(
+            RecordError::Kinematics { .. }
+                | RecordError::MaskSize { .. }
+                | RecordError::Projection { .. }
+        )
     );
     match in_frame {
         true => anyhow::Error::new(error).context(recording.display().to_string()),
@@ -182,7 +183,8 @@ fn save_overlays(
     pictures: &[Picture],
     force: bool,
 ) -> Result<Vec<PathBuf>> {
-    let configurations = outcome.session.iter().flat_map(|session| &session.configurations);
+    let configurations =
+        outcome.observations.iter().flat_map(|observations| &observations.configurations);
     let named = configurations.zip(pictures).map(|(configuration, picture)| {
         let path = overlay_path(folder, &configuration.frames[0]);
         output::write_whole(&path, &picture.encode_png(), force)?;
@@ -199,6 +201,7 @@ fn save_report(
 ) -> Result<()> {
     let Some(path) = &arguments.report else { return Ok(()) };
     let recording = arguments.recording.recording.display().to_string();
-    let context = Context { recording: &recording, pictures, truth: None };
+    let context =
+        Context { recording: &recording, pictures, call_input: names::flag, ..Context::default() };
     output::write_whole(path, html(answer, outcome, &context).as_bytes(), arguments.force)
 }

@@ -1,11 +1,11 @@
 //! `eyebolt convert`.
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
 use crate::progress::{Counting, Waiting};
-use anyhow::{Context, Result, anyhow, bail};
-use eyebolt_recording::{Recording, WriteError, write_folder, write_mcap};
+use anyhow::{Context, Result, bail};
+use eyebolt_recording::{FrameSource, Recording, write_folder, write_mcap};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -35,18 +35,19 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let waiting = Waiting::new("reading the recording");
     let recording = arguments.recording.open()?;
     drop(waiting);
-    recording.sources().iter().try_for_each(|source| refuse_source(output, source))?;
+    let files = &recording.provenance().files;
+    files.iter().try_for_each(|source| refuse_source(output, source))?;
     let robot = arguments.robot.to_write(&recording)?;
     let bar = Counting::new()?;
     match kind {
         Kind::Mcap => output::write_through(output, arguments.force, |file| {
             let writer = BufWriter::new(file);
-            write_mcap(&recording, &robot, writer, &mut |done, total| bar.tell(done, total))
-                .map_err(|error| named(error, output))
+            write_mcap(&recording, &robot, writer, &bar)
+                .map_err(|error| output::named(error, output))
         })?,
         Kind::Folder => output::write_folder_whole(output, arguments.force, |folder| {
-            write_folder(&recording, &robot, folder, &mut |done, total| bar.tell(done, total))
-                .map_err(|error| named(error, output))
+            write_folder(&recording, &robot, folder, &bar)
+                .map_err(|error| output::named(error, output))
         })?,
     }
     drop(bar);
@@ -124,20 +125,9 @@ fn refuse_source(output: &Path, source: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The error, with the name that the user gave instead of a temporary one.
-pub fn named(error: WriteError, output: &Path) -> anyhow::Error {
-    match error {
-        WriteError::File { cause, .. } => anyhow!(
-            "{}: cannot write: {cause}. Make room there, or name another place",
-            output.display()
-        ),
-        other => other.into(),
-    }
-}
-
 fn summary(recording: &Recording, kind: Kind, output: &Path, robot: bool) -> String {
     let count = recording.frame_names().len();
-    let dropped = recording.bag().map_or(0, |bag| bag.dropped_frames().len());
+    let dropped = recording.provenance().dropped.len();
     let frames = match (kind, dropped) {
         (_, 0) => format!("{count} frames"),
         (Kind::Mcap, _) => format!("{} frames, {count} of them at rest", count + dropped),

@@ -1,17 +1,17 @@
 //! `eyebolt demo`.
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::inputs::{CacheArguments, use_threads};
+use crate::names;
 use crate::output::{self, Destination};
 use crate::progress::{Bar, Waiting};
 use crate::simulate::{flags, record};
 use crate::summary;
 use anyhow::{Context as _, Result, bail};
 use eyebolt::answer::Answer;
-use eyebolt::calibrate::{Limits, Verdict};
+use eyebolt::calibrate::Verdict;
 use eyebolt::evaluate::Evaluation;
 use eyebolt::pipeline::{self, Outcome, Request};
-use eyebolt::record::RecordOptions;
 use eyebolt::report::{Context, Picture, TruthComparison, html, overlays};
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Preset, Scenario, Viewpoint, plan};
@@ -113,11 +113,9 @@ fn calibrate(
 ) -> Result<Ending> {
     let session = folder.join(SESSION);
     let begun = Instant::now();
-    let bar = Bar::new();
+    let bar = Bar::new()?;
     let recording = Recording::open(&session, &BagOptions::default())?;
-    let options = RecordOptions::default();
-    let limits = Limits::default();
-    let request = Request { recording: &recording, arm, cache, options, limits, seed: 1 };
+    let request = Request { cache: cache.clone(), ..Request::new(&recording, arm) };
     let outcome = pipeline::run(&request, &bar)?;
     bar.finish();
     let spent_s = begun.elapsed().as_secs_f64();
@@ -156,6 +154,7 @@ fn report(
             translation_mm: evaluation.translation_mm,
             rotation_deg: evaluation.rotation_deg,
         }),
+        call_input: names::flag,
     };
     let path = folder.join("report.html");
     output::write_whole(&path, html(answer, outcome, &context).as_bytes(), false)?;

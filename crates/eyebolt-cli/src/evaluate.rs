@@ -1,6 +1,6 @@
 //! `eyebolt evaluate`.
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::output;
 use anyhow::{Result, bail};
 use eyebolt::evaluate::{Evaluation, evaluate};

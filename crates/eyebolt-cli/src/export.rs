@@ -1,6 +1,6 @@
 //! `eyebolt export`.
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::inputs::packages;
 use crate::output;
 use anyhow::Result;

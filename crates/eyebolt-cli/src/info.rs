@@ -1,9 +1,10 @@
 //! `eyebolt info`.
 
+use crate::ending::{Ending, causes};
 use crate::inputs::{RecordingArguments, RobotArguments};
+use crate::names;
 use crate::output;
 use crate::progress::Waiting;
-use crate::{Ending, causes};
 use anyhow::Result;
 use eyebolt::info::{Info, NO_ROBOT};
 use eyebolt_recording::{TopicSummary, list_topics};
@@ -54,6 +55,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         // Instead of the advice to give one.
         info.advice.retain(|line| !line.starts_with(NO_ROBOT));
         info.advice.insert(0, problem);
+    }
+    for line in &mut info.advice {
+        *line = names::in_flags(line);
     }
     drop(waiting);
     let text = if arguments.json { info.to_json() } else { text(&info) };

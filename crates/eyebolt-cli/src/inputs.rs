@@ -1,7 +1,7 @@
 //! Flags that say what the recording and the robot are, shared by the commands.
 
 use anyhow::{Context, Result, bail};
-use eyebolt_recording::{BagOptions, CloudFrame, Recording, WriteRobot};
+use eyebolt_recording::{BagOptions, CloudFrame, FrameSource, Recording, WriteRobot};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::path::{Path, PathBuf};
@@ -120,7 +120,7 @@ impl RobotArguments {
     /// The arm that the flags name, else the one of the recording at `path`.
     pub fn arm(&self, path: &Path, recording: &Recording) -> Result<Arm> {
         let Some(robot) = self.robot(recording)? else {
-            if recording.bag().is_some() {
+            if !recording.provenance().topics.is_empty() {
                 bail!(
                     "{}: the bag has no robot description. Record /robot_description too, or give \
                      --robot arm.urdf",

@@ -3,16 +3,21 @@
 mod calibrate;
 mod convert;
 mod demo;
+mod ending;
 mod evaluate;
 mod export;
 mod info;
 mod inputs;
+mod logging;
+mod names;
 mod output;
 mod progress;
+mod shell;
 mod simulate;
 mod summary;
 
 use clap::{Parser, Subcommand};
+use ending::{Ending, causes};
 use std::process::ExitCode;
 
 /// Calibrates a depth camera against a robot arm: no markers, no initial guess, nobody labelling.
@@ -23,6 +28,10 @@ use std::process::ExitCode;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Say on standard error what is decided on the way, and why; twice, in more detail. RUST_LOG, if
+    /// set, says it more finely: RUST_LOG=eyebolt_recording=debug
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    verbose: u8,
 }
 
 #[derive(Debug, Subcommand)]
@@ -51,15 +60,9 @@ enum Command {
     Export(export::Arguments),
 }
 
-/// How a command that ran to its end turned out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ending {
-    Done,
-    Refused,
-}
-
 fn main() -> ExitCode {
-    let Arguments { command } = Arguments::parse();
+    let Arguments { command, verbose } = Arguments::parse();
+    logging::start(verbose);
     let ending = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
@@ -77,16 +80,4 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// The error and what caused it, each said once.
-fn causes(error: &anyhow::Error) -> String {
-    let mut text = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        if !text.contains(&cause) {
-            let colon = if text.is_empty() { "" } else { ": " };
-            text = format!("{text}{colon}{cause}");
-        }
-    }
-    text
 }

@@ -173,3 +173,14 @@ fn beside(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
     builder.tempfile_in(folder)
 }
+
+/// The error, with the name that the user gave instead of a temporary one.
+pub fn named(error: WriteError, output: &Path) -> anyhow::Error {
+    match error {
+        WriteError::File { cause, .. } => anyhow!(
+            "{}: cannot write: {cause}. Make room there, or name another place",
+            output.display()
+        ),
+        other => other.into(),
+    }
+}

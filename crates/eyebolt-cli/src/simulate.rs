@@ -1,18 +1,20 @@
 //! `eyebolt simulate`.
 
 pub mod flags;
+mod recording;
 
-use crate::Ending;
-use crate::convert;
+pub use recording::record;
+
+use crate::ending::Ending;
 use crate::inputs::{CacheArguments, use_threads};
 use crate::output;
-use crate::progress::{Counting, Waiting};
+use crate::progress::Waiting;
+use crate::shell::quoted;
 use anyhow::Result;
-use eyebolt::simulate::{Plan, Scenario, SimulateError, plan};
+use eyebolt::simulate::{Scenario, plan};
 use eyebolt_render::Sensor;
 use flags::{CameraArguments, FaultArguments, RobotArguments};
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Options of `eyebolt simulate`.
 #[derive(Debug, clap::Args)]
@@ -84,19 +86,6 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     Ok(Ending::Done)
 }
 
-/// Writes the recording of `plan` to `path`, whole or not at all.
-pub fn record(plan: &Plan<'_>, path: &Path, force: bool) -> Result<()> {
-    let bar = Counting::new()?;
-    output::write_through(path, force, |file| {
-        plan.record(BufWriter::new(file), &mut |done, total| bar.tell(done, total)).map_err(
-            |error| match error {
-                SimulateError::Write(error) => convert::named(error, path),
-                other => other.into(),
-            },
-        )
-    })
-}
-
 fn summary(arguments: &Arguments) -> String {
     let Arguments { configurations, frames, sensor, output, .. } = arguments;
     let path = quoted(&output.display().to_string());
@@ -107,13 +96,4 @@ fn summary(arguments: &Arguments) -> String {
          evaluate {path} calibration.json",
         output.display()
     )
-}
-
-/// `text` as one word of a shell.
-pub fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,@%".contains(c);
-    match text.chars().all(plain) {
-        true => text.to_owned(),
-        false => format!("'{}'", text.replace('\'', "'\\''")),
-    }
 }

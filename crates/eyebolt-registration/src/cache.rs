@@ -31,7 +31,8 @@ impl LinkCache {
         Self { folder: None }
     }
 
-    /// The model of the link whose source has `fingerprint`, from disk or built from `mesh`.
+    /// The model of the link whose source has `fingerprint`, from disk or built from `mesh` with a
+    /// distance field of at most `most_points`.
     ///
     /// A cache that cannot be written is no error: the model is merely built again next time.
     ///
@@ -41,14 +42,18 @@ impl LinkCache {
     pub fn load_or_build<E>(
         &self,
         fingerprint: &str,
+        most_points: usize,
         mesh: impl FnOnce() -> Result<TriangleMesh, E>,
     ) -> Result<LinkModel, E> {
-        let path = self.folder.as_ref().map(|folder| folder.join(format!("{fingerprint}.link")));
+        let path = self
+            .folder
+            .as_ref()
+            .map(|folder| folder.join(format!("{fingerprint}-{most_points}.link")));
         let stored = path.as_ref().and_then(|path| std::fs::read(path).ok());
         if let Some(model) = stored.and_then(|bytes| decode(&bytes)) {
             return Ok(model);
         }
-        let model = LinkModel::build(&mesh()?);
+        let model = LinkModel::build_within(&mesh()?, most_points);
         if let Some(path) = path {
             // Ignored on purpose: see above.
             let _ = write_whole(&path, &encode(&model));
@@ -114,7 +119,7 @@ fn decode(bytes: &[u8]) -> Option<LinkModel> {
         return None;
     }
     let steps = reader.chunks::<2>(points)?.map(i16::from_le_bytes).collect();
-    let field = DistanceField { origin, voxel_m, size, steps, step_m };
+    let field = DistanceField::new(origin, voxel_m, size, steps, step_m);
     let surface = (0..reader.count()?).map(|_| {
         Some(SurfacePoint { point: Point3::from(reader.vector()?), normal: reader.vector()? })
     });

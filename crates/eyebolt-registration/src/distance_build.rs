@@ -4,7 +4,7 @@
 //! Bridson's level-set construction); inside and outside are told apart by flooding from the
 //! grid's border, which needs no closed or consistently oriented mesh.
 
-use crate::distance_field::DistanceField;
+use crate::distance_field::{DistanceField, bounded_grid};
 use crate::triangle::{area_normal, closest_point, corners, spread_points};
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
@@ -24,16 +24,30 @@ struct Builder<'a> {
     nearest: Vec<u32>,
 }
 
-pub(crate) fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32) -> DistanceField {
-    let all = corners(mesh);
-    let mut builder = Builder::new(&all, voxel_m, margin_m);
+impl DistanceField {
+    /// The field of `mesh` with the given grid spacing, reaching `margin_m` beyond its box.
+    ///
+    /// A mesh that needs more than `most_points` grid points gets a wider spacing. Takes seconds for
+    /// a detailed mesh: see [`crate::LinkCache`].
+    pub fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32, most_points: usize) -> Self {
+        build(&corners(mesh), voxel_m, margin_m, most_points)
+    }
+}
+
+fn build(
+    all: &[[Point3<f32>; 3]],
+    voxel_m: f32,
+    margin_m: f32,
+    most_points: usize,
+) -> DistanceField {
+    let mut builder = Builder::new(all, voxel_m, margin_m, most_points);
     builder.find_nearest();
     let outside = builder.flood();
     let outer: Vec<_> = all.iter().copied().filter(|t| builder.touches(&outside, t)).collect();
     if outer.len() < all.len() && !outer.is_empty() {
         // Same grid, so that what was outside stays outside.
         let (origin, size) = (builder.origin, builder.size);
-        builder = Builder::on_grid(&outer, origin, voxel_m, size);
+        builder = Builder::on_grid(&outer, origin, builder.voxel_m, size);
         builder.find_nearest();
         return builder.signed(&outside);
     }
@@ -41,7 +55,12 @@ pub(crate) fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32) -> Distanc
 }
 
 impl<'a> Builder<'a> {
-    fn new(triangles: &'a [[Point3<f32>; 3]], voxel_m: f32, margin_m: f32) -> Self {
+    fn new(
+        triangles: &'a [[Point3<f32>; 3]],
+        voxel_m: f32,
+        margin_m: f32,
+        most_points: usize,
+    ) -> Self {
         let mut low = Point3::from(Vector3::repeat(f32::INFINITY));
         let mut high = Point3::from(Vector3::repeat(f32::NEG_INFINITY));
         for corner in triangles.iter().flatten() {
@@ -50,7 +69,7 @@ impl<'a> Builder<'a> {
         }
         let origin = low - Vector3::repeat(margin_m);
         let span = high - low + Vector3::repeat(2.0 * margin_m);
-        let size = [0, 1, 2].map(|axis| (span[axis] / voxel_m).ceil().max(1.0) as usize + 1);
+        let (voxel_m, size) = bounded_grid(&span, voxel_m, most_points);
         Self::on_grid(triangles, origin, voxel_m, size)
     }
 

@@ -1,7 +1,5 @@
 //! Signed distance to the outside of a mesh, on a regular grid.
 
-use crate::distance_build;
-use eyebolt_robot::TriangleMesh;
 use nalgebra::{Point3, Vector3};
 
 /// Signed distance (metres, negative inside) and its gradient around one link, in the link's frame.
@@ -17,6 +15,8 @@ pub struct DistanceField {
     /// Distance in steps of `step_m`, x fastest.
     pub(crate) steps: Vec<i16>,
     pub(crate) step_m: f32,
+    /// The least distance on the border of the grid, metres.
+    border_m: f32,
 }
 
 /// What [`DistanceField::sample`] finds.
@@ -29,11 +29,22 @@ pub struct DistanceSample {
 }
 
 impl DistanceField {
-    /// The field of `mesh` with the given grid spacing, reaching `margin_m` beyond its box.
+    /// The field with `steps` of `step_m` metres at the points of a grid, x fastest.
     ///
-    /// Takes seconds for a detailed mesh: see [`crate::LinkCache`].
-    pub fn build(mesh: &TriangleMesh, voxel_m: f32, margin_m: f32) -> Self {
-        distance_build::build(mesh, voxel_m, margin_m)
+    /// # Panics
+    ///
+    /// If there are not as many steps as grid points, or fewer than two points along an axis.
+    pub(crate) fn new(
+        origin: Point3<f32>,
+        voxel_m: f32,
+        size: [usize; 3],
+        steps: Vec<i16>,
+        step_m: f32,
+    ) -> Self {
+        assert!(size.iter().all(|n| *n >= 2), "a grid of {size:?} points");
+        assert_eq!(steps.len(), size.iter().product::<usize>(), "one value a grid point");
+        let border_m = f32::from(least_on_border(size, &steps)) * step_m;
+        Self { origin, voxel_m, size, steps, step_m, border_m }
     }
 
     /// The field whose value at each grid point is `distance_m(point)`.
@@ -60,7 +71,7 @@ impl DistanceField {
                 }
             }
         }
-        Self { origin, voxel_m, size, steps, step_m }
+        Self::new(origin, voxel_m, size, steps, step_m)
     }
 
     /// Grid spacing, metres.
@@ -78,6 +89,28 @@ impl DistanceField {
     /// Beyond the grid the distance to the grid's box is added: never less than the true distance,
     /// and over by no more than the distance at the box, so it keeps growing.
     pub fn sample(&self, point: &Point3<f32>) -> DistanceSample {
+        let (base, part, beyond) = self.locate(point);
+        self.sample_at(base, part, beyond)
+    }
+
+    /// As [`Self::sample`], or `None` where the grid's border alone is farther than `limit_m`.
+    pub(crate) fn sample_within(
+        &self,
+        point: &Point3<f32>,
+        limit_m: f32,
+    ) -> Option<DistanceSample> {
+        let (base, part, beyond) = self.locate(point);
+        let outside = beyond.norm_squared();
+        // A hair more than the rounding of the sum.
+        let short = limit_m - self.border_m + 1e-5;
+        if outside > 0.0 && (short < 0.0 || outside > short * short) {
+            return None;
+        }
+        Some(self.sample_at(base, part, beyond))
+    }
+
+    /// The cell of `point`, where in the cell it is, and how far beyond the grid, metres.
+    fn locate(&self, point: &Point3<f32>) -> ([usize; 3], [f32; 3], Vector3<f32>) {
         let inverse = 1.0 / self.voxel_m;
         let mut base = [0usize; 3];
         let mut part = [0f32; 3];
@@ -90,7 +123,11 @@ impl DistanceField {
             base[axis] = (clamped as usize).min(self.size[axis] - 2);
             part[axis] = clamped - base[axis] as f32;
         }
-        let mut sample = self.interpolate(base, part, inverse);
+        (base, part, beyond)
+    }
+
+    fn sample_at(&self, base: [usize; 3], part: [f32; 3], beyond: Vector3<f32>) -> DistanceSample {
+        let mut sample = self.interpolate(base, part, 1.0 / self.voxel_m);
         let outside = beyond.norm_squared();
         if outside > 0.0 {
             let outside = outside.sqrt();
@@ -146,5 +183,74 @@ impl DistanceField {
     pub fn bounds(&self) -> (Point3<f32>, Point3<f32>) {
         let [nx, ny, nz] = self.size.map(|n| (n - 1) as f32 * self.voxel_m);
         (self.origin, self.origin + Vector3::new(nx, ny, nz))
+    }
+}
+
+/// The least of `steps` on the six sides of a grid of `size` points.
+fn least_on_border([nx, ny, nz]: [usize; 3], steps: &[i16]) -> i16 {
+    let mut least = i16::MAX;
+    for (row, values) in steps.chunks_exact(nx).enumerate() {
+        let (j, k) = (row % ny, row / ny);
+        let side = j == 0 || j + 1 == ny || k == 0 || k + 1 == nz;
+        let ends = [values[0], values[nx - 1]];
+        let values = if side { values } else { &ends };
+        least = values.iter().fold(least, |least, value| least.min(*value));
+    }
+    least
+}
+
+/// Spacing and number of points of a grid over `span` metres: of `voxel_m`, or as much wider as keeps
+/// it to `most_points` (at least 2 along each axis).
+///
+/// What a description or a recording says must not decide how much memory is taken.
+pub(crate) fn bounded_grid(
+    span: &Vector3<f32>,
+    voxel_m: f32,
+    most_points: usize,
+) -> (f32, [usize; 3]) {
+    let points = |voxel: f32| [0, 1, 2].map(|axis| (span[axis] / voxel).ceil().max(1.0) + 1.0);
+    let product = |voxel: f32| points(voxel).map(f64::from).iter().product::<f64>();
+    let mut voxel_m = voxel_m;
+    while product(voxel_m) > most_points as f64 {
+        let ratio = (product(voxel_m) / most_points as f64).cbrt() as f32;
+        voxel_m *= ratio.max(1.02);
+    }
+    (voxel_m, points(voxel_m).map(|n| n as usize))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_grid_covers_its_span_and_keeps_to_its_bound(
+            span in proptest::array::uniform3(1e-3..2e6_f32), most in 1_000_usize..100_000,
+        ) {
+            let (voxel_m, size) = bounded_grid(&Vector3::from(span), 0.005, most);
+            prop_assert!(size.iter().product::<usize>() <= most && voxel_m >= 0.005);
+            for (points, span) in size.iter().zip(span) {
+                prop_assert!(*points >= 2 && (points - 1) as f32 * voxel_m >= 0.999 * span);
+            }
+        }
+
+        /// What is passed over is farther than asked for, whatever is in the grid.
+        #[test]
+        fn a_limit_hides_nothing_nearer(
+            values in proptest::collection::vec(-0.2..0.26_f32, 27),
+            point in proptest::array::uniform3(-0.5..0.8_f32), limit in 0.0..0.6_f32,
+        ) {
+            let mut next = values.iter();
+            let field = DistanceField::from_fn(Point3::origin(), 0.1, [3; 3], 0.26, |_| {
+                *next.next().expect("27 values")
+            });
+            let point = Point3::from(point);
+            let all = field.sample(&point);
+            match field.sample_within(&point, limit) {
+                Some(found) => prop_assert_eq!(found, all),
+                None => prop_assert!(all.distance_m > limit),
+            }
+        }
     }
 }

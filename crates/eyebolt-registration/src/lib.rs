@@ -4,9 +4,10 @@
 mod arm;
 mod cache;
 mod decimate;
+mod depth_margin;
 mod distance_build;
 mod distance_field;
-mod factors;
+mod evidence;
 mod image_distance;
 mod link_model;
 mod normal_equations;
@@ -18,21 +19,26 @@ mod search;
 mod silhouette;
 mod surface_sample;
 mod triangle;
+mod unknowns;
 mod view;
 
 pub use arm::{
     ArmJoint, ArmLink, ArmModel, JointAxis, JointOffsets, MOST_JOINTS, NearestSurface, Posture,
 };
 pub use cache::LinkCache;
+pub use depth_margin::Margin;
 pub use distance_field::{DistanceField, DistanceSample};
+pub use evidence::{Presentation, Reach, presentation};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    JointPrior, RefineOptions, RefineView, Refinement, Start, StopReason, Trust, ViewFit, refine,
+    Fit, JointPrior, RefineOptions, RefineView, Refinement, Residual, Start, StopReason, Trust,
+    ViewFit, refine, residuals,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;
 pub use search::{Candidate, SearchView, search};
 pub use silhouette::{Label, Labels, Silhouette};
 pub use surface_sample::SurfacePoint;
-pub use view::{Evidence, View};
+pub use unknowns::{EVIDENCE_KINDS, OUTLINES, SURFACES};
+pub use view::{Consistency, View};

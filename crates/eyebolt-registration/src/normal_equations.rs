@@ -30,6 +30,39 @@ impl<const N: usize> NormalEquations<N> {
         self.weight += weight;
     }
 
+    /// As [`Self::add`] where the square counts `curvature`, which may be negative, and the slope
+    /// `weight`.
+    pub(crate) fn add_curved(
+        &mut self,
+        jacobian: &SVector<f64, N>,
+        residual: f64,
+        weight: f64,
+        curvature: f64,
+    ) {
+        self.information.ger(curvature, jacobian, jacobian, 1.0);
+        self.gradient.axpy(weight * residual, jacobian, 1.0);
+        self.weight += weight;
+    }
+
+    /// Adds another sum, `factor` times.
+    pub(crate) fn add_scaled(&mut self, other: &Self, factor: f64) {
+        self.information += other.information * factor;
+        self.gradient += other.gradient * factor;
+        self.weight += other.weight * factor;
+    }
+
+    /// Takes another sum away.
+    pub(crate) fn subtract_all(&mut self, other: &Self) {
+        self.add_scaled(other, -1.0);
+    }
+
+    /// Counts all so far `factor` times.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.information *= factor;
+        self.gradient *= factor;
+        self.weight *= factor;
+    }
+
     /// Adds another sum.
     pub fn add_all(&mut self, other: &Self) {
         self.information += other.information;

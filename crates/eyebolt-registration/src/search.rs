@@ -5,12 +5,12 @@
 //! are polished further with all points, and what the camera saw through counts against them.
 
 use crate::arm::{ArmModel, Posture};
-use crate::distance_field::DistanceField;
+use crate::distance_field::{DistanceField, bounded_grid};
 use crate::normal_equations::NormalEquations;
 use crate::robust::geman_mcclure;
 use crate::rotations::spread_rotations;
 use crate::surface_sample::SurfacePoint;
-use crate::view::{Evidence, View};
+use crate::view::{Consistency, View};
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
 use rayon::prelude::*;
@@ -54,6 +54,8 @@ const POLISHED: usize = 120;
 const POLISH: [f64; 8] = [0.10, 0.08, 0.06, 0.05, 0.04, 0.03, 0.03, 0.03];
 const COARSE_VOXEL_M: f32 = 0.03;
 const COARSE_MARGIN_M: f32 = 0.15;
+/// Grid points of the coarse field of one configuration; a sliding joint may put links far apart.
+const MOST_COARSE_POINTS: usize = 2_000_000;
 
 /// Poses of the base that explain the views, best first, each at least 10 degrees or 10 cm from
 /// the ones before it; at most `wanted`. `seed` turns the rotations tried.
@@ -130,9 +132,12 @@ fn whole_arm(arm: &ArmModel, posture: &Posture) -> DistanceField {
     }
     let origin = low - Vector3::repeat(COARSE_MARGIN_M);
     let span = high - low + Vector3::repeat(2.0 * COARSE_MARGIN_M);
-    let size = [0, 1, 2].map(|axis| (span[axis] / COARSE_VOXEL_M).ceil() as usize + 1);
-    DistanceField::from_fn(origin, COARSE_VOXEL_M, size, 2.0, |p| {
-        posture.nearest(arm, p).map_or(f32::INFINITY, |nearest| nearest.distance_m)
+    let (voxel_m, size) = bounded_grid(&span, COARSE_VOXEL_M, MOST_COARSE_POINTS);
+    let mut last = 0;
+    DistanceField::from_fn(origin, voxel_m, size, 2.0, |p| {
+        let nearest = posture.nearest_within(arm, p, f32::INFINITY, last);
+        last = nearest.map_or(last, |nearest| nearest.link);
+        nearest.map_or(f32::INFINITY, |nearest| nearest.distance_m)
     })
 }
 
@@ -238,11 +243,11 @@ fn judge(problems: &[Problem<'_>], base_from_camera: Isometry3<f64>) -> Candidat
             if (outward.rotation * surface.normal).dot(&p.coords) > 0.0 {
                 continue;
             }
-            match problem.view.evidence(&p) {
-                Evidence::Agrees => judged += 1.0,
-                Evidence::Contradicts => (against, judged) = (against + 1.0, judged + 1.0),
+            match problem.view.consistency(&p) {
+                Consistency::Agrees => judged += 1.0,
+                Consistency::Contradicts => (against, judged) = (against + 1.0, judged + 1.0),
                 // Behind the camera or out of sight, a pose must not hide from judgement for free.
-                Evidence::Unknown => (against, judged) = (against + 0.25, judged + 1.0),
+                Consistency::Unknown => (against, judged) = (against + 0.25, judged + 1.0),
             }
         }
         contradicted += against / judged;

@@ -1,6 +1,7 @@
 //! The arm's outline as the camera saw it.
 
 use crate::image_distance::distance_to;
+use eyebolt_geometry::Mask;
 use nalgebra::{Point2, Vector2};
 use std::ops::Range;
 
@@ -9,10 +10,19 @@ use std::ops::Range;
 pub enum Label {
     /// Something that is not the arm.
     Background,
-    /// The arm.
+    /// The arm; its end-effector too, where nobody told the two apart.
     Arm,
+    /// The end-effector.
+    EndEffector,
     /// Nobody can say, or it does not matter: never evidence for anything.
     Ignore,
+}
+
+impl Label {
+    /// Whether it is the arm or its end-effector.
+    pub fn is_robot(self) -> bool {
+        matches!(self, Self::Arm | Self::EndEffector)
+    }
 }
 
 /// Labels of a rectangle of an image.
@@ -66,7 +76,8 @@ impl Labels {
         self.distance_where(|other| other != label)
     }
 
-    fn distance_where(&self, counts: impl Fn(Label) -> bool) -> Vec<f32> {
+    /// Distance in pixels from each pixel of the rectangle to the nearest one whose label `counts`.
+    pub fn distance_where(&self, counts: impl Fn(Label) -> bool) -> Vec<f32> {
         let set: Vec<bool> = self.labels.iter().map(|l| counts(*l)).collect();
         distance_to(&set, self.columns.len(), self.rows.len())
     }
@@ -78,6 +89,32 @@ impl Labels {
         let core: Vec<bool> = inside.iter().map(|d| *d > radius).collect();
         let to_core = distance_to(&core, self.columns.len(), self.rows.len());
         to_core.iter().map(|d| *d <= radius).collect()
+    }
+
+    /// The pixels of the arm and its end-effector, in an image of `width` by `height` pixels.
+    pub fn robot_mask(&self, width: u32, height: u32) -> Mask {
+        let mut set = vec![false; width as usize * height as usize];
+        let columns = self.columns.clone();
+        for (v, labels) in self.rows.clone().zip(self.labels.chunks(columns.len().max(1))) {
+            let row = set.get_mut(v * width as usize..).unwrap_or_default();
+            for (is_robot, label) in
+                row.iter_mut().take(width as usize).skip(columns.start).zip(labels)
+            {
+                *is_robot = label.is_robot();
+            }
+        }
+        Mask::new(width, height, set).expect("as many pixels as the image")
+    }
+
+    /// The same rectangle with each label replaced by `relabel(u, v, label)`.
+    #[must_use]
+    pub fn mapped(mut self, mut relabel: impl FnMut(usize, usize, Label) -> Label) -> Self {
+        let width = self.columns.len().max(1);
+        for (at, label) in self.labels.iter_mut().enumerate() {
+            let (u, v) = (self.columns.start + at % width, self.rows.start + at / width);
+            *label = relabel(u, v, *label);
+        }
+        self
     }
 
     /// How many pixels have `label`.
@@ -102,7 +139,7 @@ impl Silhouette {
     /// The outline in `labels`. It runs in the middle between the last pixel of the arm and the
     /// first of the background, to half a pixel.
     pub fn new(labels: &Labels) -> Self {
-        let to_arm = labels.distance_to(Label::Arm);
+        let to_arm = labels.distance_where(Label::is_robot);
         let to_background = labels.distance_to(Label::Background);
         let to_ignored = labels.distance_to(Label::Ignore);
         let signed = (0..to_arm.len()).map(|at| {

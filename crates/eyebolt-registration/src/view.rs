@@ -1,6 +1,7 @@
 //! One arm configuration as the camera saw it.
 
 use crate::arm::Posture;
+use crate::depth_margin::Margin;
 use eyebolt_geometry::{DepthImage, Mask, PinholeCamera};
 use nalgebra::{Point2, Point3};
 
@@ -19,7 +20,7 @@ pub struct View<'a> {
 
 /// What a view says of a point that should be on the arm's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Evidence {
+pub enum Consistency {
     /// The camera saw something about there.
     Agrees,
     /// The camera saw through it, or it lies outside the arm's mask.
@@ -29,37 +30,31 @@ pub enum Evidence {
 }
 
 impl View<'_> {
-    /// How much depth may differ at depth `z`, metres: stereo and structured light get worse with
-    /// the square of the distance.
-    pub fn tolerance_m(z: f32) -> f32 {
-        0.03 + 0.01 * z * z
-    }
-
     /// What the view says of a surface point of the arm at `point_in_camera`.
-    pub fn evidence(&self, point_in_camera: &Point3<f32>) -> Evidence {
+    pub fn consistency(&self, point_in_camera: &Point3<f32>) -> Consistency {
         let Some(pixel) = self.camera.project(&point_in_camera.cast()) else {
-            return Evidence::Unknown;
+            return Consistency::Unknown;
         };
-        self.evidence_at(&pixel, point_in_camera.z)
+        self.consistency_at(&pixel, point_in_camera.z)
     }
 
-    fn evidence_at(&self, pixel: &Point2<f64>, z: f32) -> Evidence {
+    fn consistency_at(&self, pixel: &Point2<f64>, z: f32) -> Consistency {
         if !self.camera.contains(pixel) {
-            return Evidence::Unknown;
+            return Consistency::Unknown;
         }
         let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
         let seen = self.depth.at(u, v);
-        let tolerance = Self::tolerance_m(z);
+        let tolerance = Margin::Search.at_m(z);
         if seen > 0.0 && seen < z - tolerance {
-            return Evidence::Unknown;
+            return Consistency::Unknown;
         }
         if self.mask.is_some_and(|mask| !mask.at(u, v)) {
-            return Evidence::Contradicts;
+            return Consistency::Contradicts;
         }
         if seen <= 0.0 {
-            return Evidence::Unknown;
+            return Consistency::Unknown;
         }
         // The far side of a thick link lies behind the side that was seen.
-        if seen > z + tolerance { Evidence::Contradicts } else { Evidence::Agrees }
+        if seen > z + tolerance { Consistency::Contradicts } else { Consistency::Agrees }
     }
 }

@@ -5,10 +5,11 @@
 //! `w >= 0`.
 
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
-use crate::info::left_out;
+use crate::observations::{Background, ImageSource, Observations};
 use crate::pipeline::{Outcome, Request};
-use crate::session::{Background, ImageSource, Session};
 use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
+use eyebolt_recording::Provenance;
+use eyebolt_registration::Refinement;
 use nalgebra::{Matrix6, Point3};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -64,7 +65,8 @@ pub struct Answer {
     /// the most of all configurations, millimetres; `null` if nothing was found. Whoever commands
     /// joints, or computes poses from them, is off by this beside the calibration's own error.
     pub end_effector_off_by_joints_mm: Option<f64>,
-    /// One for each frame of the recording, frames of one configuration together.
+    /// One for each frame of the configurations that were used or judged, frames of one configuration
+    /// together; frames that were left out, and spare configurations, are counted below.
     pub configurations: Vec<FrameOutcome>,
     /// How many frames of a bag did not take part, by reason: `moving`, `no_joint_state_near`...
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -213,7 +215,7 @@ impl Answer {
     /// The answer to `request`.
     pub fn new(request: &Request<'_>, outcome: &Outcome) -> Self {
         let calibration = &outcome.calibration;
-        let session = outcome.session.as_ref();
+        let observations = outcome.observations.as_ref();
         let (verdict, reasons) = match &calibration.verdict {
             Verdict::Trusted => ("trusted", Vec::new()),
             Verdict::Refused(reasons) => {
@@ -239,33 +241,35 @@ impl Answer {
             contradicted_share: agreement.map(|agreement| agreement.contradicted_share()),
             unexplained_share: agreement.map(|agreement| agreement.unexplained_share()),
             silhouette_iou: agreement.and_then(|agreement| agreement.silhouette_iou()),
-            depth_scale_error: refinement.map(|refinement| refinement.depth_scale),
-            outline_excess_px: refinement.map(|refinement| refinement.outline_px),
-            joint_offsets: session
-                .map(|session| joint_offsets(session, calibration))
+            depth_scale_error: refinement.map(Refinement::depth_scale),
+            outline_excess_px: refinement.map(Refinement::outline_px),
+            joint_offsets: observations
+                .map(|observations| joint_offsets(observations, calibration))
                 .unwrap_or_default(),
-            end_effector_off_by_joints_mm: session
-                .and_then(|session| end_effector_off_mm(session, calibration)),
+            end_effector_off_by_joints_mm: observations
+                .and_then(|observations| end_effector_off_mm(observations, calibration)),
             configurations: frame_outcomes(calibration),
-            frames_left_out: left_out(request.recording),
-            spare_configurations: session.map_or(0, |session| session.spare_configurations),
+            frames_left_out: left_out(request.source.provenance()),
+            spare_configurations: observations
+                .map_or(0, |observations| observations.spare_configurations),
             clock_offset_s: request
-                .recording
-                .bag()
-                .and_then(|bag| bag.clock_offset())
+                .source
+                .provenance()
+                .clock_offset
                 .filter(|offset| offset.applied)
                 .map(|offset| offset.seconds),
-            image_source: session.map(|session| source_name(&session.source)),
-            intrinsics: session
-                .filter(|session| session.source != ImageSource::DrawnClouds)
-                .map(|session| Intrinsics::new(&session.camera)),
-            optical_from_image: session
-                .map(|session| Turn { rotation_xyzw: session.optical_from_camera.rotation_xyzw() }),
-            assumed_joints: session.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
+            image_source: observations.map(|observations| source_name(&observations.source)),
+            intrinsics: observations
+                .filter(|observations| observations.source != ImageSource::DrawnClouds)
+                .map(|observations| Intrinsics::new(&observations.camera)),
+            optical_from_image: observations.map(|observations| Turn {
+                rotation_xyzw: observations.optical_from_camera.rotation_xyzw(),
+            }),
+            assumed_joints: observations.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
-            masks: session.is_some_and(Session::has_masks),
-            background: session.and_then(|session| background(&session.background)),
+            masks: observations.is_some_and(Observations::has_masks),
+            background: observations.and_then(|observations| background(&observations.background)),
             seed: request.seed,
             timing_ms: None,
         }
@@ -286,12 +290,12 @@ impl Answer {
     }
 }
 
-fn joint_offsets(session: &Session, calibration: &Calibration) -> Vec<JointOffset> {
+fn joint_offsets(observations: &Observations, calibration: &Calibration) -> Vec<JointOffset> {
     let (Some(refinement), Some(error)) = (&calibration.refinement, &calibration.error) else {
         return Vec::new();
     };
     let estimates = refinement.joint_offsets.rad.iter().zip(&error.joint_sigma_rad);
-    let joints = session.arm.joints().iter().zip(estimates);
+    let joints = observations.arm.joints().iter().zip(estimates);
     let told = joints.map(|(joint, (offset, sigma))| JointOffset {
         joint: joint.name.clone(),
         offset_deg: offset.to_degrees(),
@@ -301,11 +305,11 @@ fn joint_offsets(session: &Session, calibration: &Calibration) -> Vec<JointOffse
 }
 
 /// The most that offsets of joints move the end-effector in any configuration.
-fn end_effector_off_mm(session: &Session, calibration: &Calibration) -> Option<f64> {
+fn end_effector_off_mm(observations: &Observations, calibration: &Calibration) -> Option<f64> {
     let offsets = &calibration.refinement.as_ref()?.joint_offsets;
-    let moved = session.configurations.iter().map(|configuration| {
+    let moved = observations.configurations.iter().map(|configuration| {
         let tip = Point3::from(configuration.base_from_end_effector.translation_m());
-        1e3 * configuration.posture.moved_by(&session.arm, offsets, &tip).norm()
+        1e3 * configuration.posture.moved_by(&observations.arm, offsets, &tip).norm()
     });
     moved.max_by(f64::total_cmp)
 }
@@ -316,7 +320,7 @@ fn is_zero(count: &usize) -> bool {
 
 fn frames(request: &Request<'_>) -> Frames {
     Frames {
-        camera: request.recording.camera_frame_id().map(str::to_owned),
+        camera: request.source.camera_frame_id().map(str::to_owned),
         base: request.arm.base_name().to_owned(),
         end_effector: request.arm.end_effector_name().to_owned(),
         convention: "a_from_b maps coordinates in b to coordinates in a; camera is the depth \
@@ -407,4 +411,13 @@ fn background(background: &Background) -> Option<&'static str> {
         Background::Seen(_) => Some("used"),
         Background::OfAnotherScene => Some("of_another_scene"),
     }
+}
+
+/// How many frames do not take part, by reason.
+fn left_out(provenance: &Provenance) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for frame in &provenance.dropped {
+        *counts.entry(frame.reason.name()).or_default() += 1;
+    }
+    counts
 }

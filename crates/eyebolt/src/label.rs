@@ -4,8 +4,14 @@
 //! background that the frames themselves tell. Once a pose is known: what lies near the posed arm,
 //! with a third answer, *ignore*, where nobody can say.
 
+mod before_pose;
+mod labeller;
+mod masks;
 mod moving;
 mod posed;
 
-pub use moving::moving_masks;
-pub use posed::{arm_points, labels_at};
+pub use before_pose::before_pose;
+pub use labeller::Labeller;
+pub use masks::GivenMasks;
+pub use moving::Motion;
+pub use posed::{PosedModel, arm_points, labels_at};

@@ -3,9 +3,12 @@
 pub mod answer;
 pub mod calibrate;
 pub mod evaluate;
+mod evenly;
 pub mod export;
 pub mod info;
+pub mod joint_limits;
 pub mod label;
+pub mod observations;
 pub mod pipeline;
 pub mod pose;
 pub mod progress;
@@ -13,5 +16,4 @@ pub mod record;
 pub mod refine;
 pub mod report;
 pub mod robots;
-pub mod session;
 pub mod simulate;

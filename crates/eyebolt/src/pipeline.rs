@@ -1,28 +1,56 @@
-//! From a recording to a calibration.
+//! From a recording to a calibration: record, label, pose, refine, calibrate.
+//!
+//! The only file that knows the order of the stages.
 
-use crate::calibrate::{Calibration, Limits, Reason, Verdict, calibrate};
-use crate::progress::{Progress, Step};
-use crate::record::{self, RecordError, RecordOptions};
-use crate::session::Session;
-use eyebolt_recording::Recording;
-use eyebolt_registration::LinkCache;
+use crate::calibrate::{Calibration, Jackknife, Limits, Reason, Verdict, calibrate};
+use crate::label::{Labeller, before_pose};
+use crate::observations::Observations;
+use crate::pose::{GlobalSearch, PoseProposer};
+use crate::progress::{Cancelled, Progress, Step};
+use crate::record::{RecordError, RecordOptions, observe};
+use crate::refine::refine_best;
+use eyebolt_recording::FrameSource;
+use eyebolt_registration::{LinkCache, Posture};
 use eyebolt_robot::{Arm, KinematicsError};
 
 /// What to calibrate, and how.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// The recording.
-    pub recording: &'a Recording,
-    /// The arm in it.
+    /// Where the frames come from.
+    pub source: &'a dyn FrameSource,
+    /// The arm in them.
     pub arm: &'a Arm,
     /// Where shapes of links are kept between runs.
-    pub cache: &'a LinkCache,
-    /// What to read of the recording.
+    pub cache: LinkCache,
+    /// What to read of the source.
     pub options: RecordOptions,
+    /// Tells the arm's pixels before a pose is known; otherwise masks do, or motion.
+    pub labeller: Option<&'a dyn Labeller>,
+    /// Proposes poses; otherwise the global search does.
+    pub proposer: Option<&'a dyn PoseProposer>,
     /// What an answer has to meet to be trusted.
     pub limits: Limits,
+    /// How the answers without single configurations are found.
+    pub jackknife: Jackknife,
     /// Seed of the search.
     pub seed: u64,
+}
+
+impl<'a> Request<'a> {
+    /// Calibrates `arm` in the frames of `source`, by defaults in all else; nothing is kept on disk.
+    pub fn new(source: &'a dyn FrameSource, arm: &'a Arm) -> Self {
+        Self {
+            source,
+            arm,
+            cache: LinkCache::disabled(),
+            options: RecordOptions::default(),
+            labeller: None,
+            proposer: None,
+            limits: Limits::default(),
+            jackknife: Jackknife::default(),
+            seed: 1,
+        }
+    }
 }
 
 /// A calibration with what it was made from.
@@ -30,34 +58,69 @@ pub struct Request<'a> {
 pub struct Outcome {
     /// The answer and the verdict.
     pub calibration: Calibration,
-    /// What was seen, with the arm's links where the answer has them; `None` if the recording is not
-    /// of this robot.
-    pub session: Option<Session>,
+    /// What was seen; `None` if the recording is not of this robot.
+    pub observations: Option<Observations>,
 }
 
-/// Record, label, pose, refine, calibrate: an answer with a verdict, or the error that kept the
-/// recording or the robot from being read.
+/// Why there is no outcome at all.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The recording or the robot cannot be read, or do not fit.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Whoever hears of the progress ended it.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// An answer with a verdict, or what kept the recording or the robot from being read.
 ///
 /// # Errors
 ///
-/// What [`record::open`] reports; but a recording with none of the robot's joints is refused.
-pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, RecordError> {
-    progress.begin(Step::Record);
-    let Request { recording, arm, cache, options, limits, seed } = request;
-    match record::open(recording, arm, cache, options) {
-        Ok(mut session) => {
-            let calibration = calibrate(&session, limits, *seed, progress);
-            if let Some(refinement) = &calibration.refinement {
-                session.move_joints(&refinement.joint_offsets);
-            }
-            Ok(Outcome { calibration, session: Some(session) })
-        }
+/// What [`observe`] reports; but a recording with none of the robot's joints is refused.
+pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Failure> {
+    let Request { source, arm, cache, options, limits, jackknife, .. } = request;
+
+    Step::Record.begin(progress)?;
+    let observations = match observe(*source, arm, cache, options) {
         Err(RecordError::Kinematics { source, .. }) if is_other_robot(arm, &source) => {
-            let problem = format!("robot {:?}: {source}", arm.robot().name);
-            let verdict = Verdict::Refused(vec![Reason::OtherRobot { problem }]);
-            Ok(Outcome { calibration: Calibration::without_pose(verdict), session: None })
+            return Ok(Outcome::of_another_robot(arm, &source));
         }
-        Err(error) => Err(error),
+        observed => observed?,
+    };
+
+    Step::Label.begin(progress)?;
+    let labeller = request.labeller.unwrap_or_else(|| before_pose(&observations));
+    let labels = labeller.label(&observations);
+
+    Step::Pose.begin(progress)?;
+    let search = GlobalSearch::new(request.seed);
+    let hypotheses = request.proposer.unwrap_or(&search).propose(&observations, &labels);
+
+    Step::Refine.begin(progress)?;
+    let found = refine_best(&observations, &labels, &hypotheses, progress)?;
+
+    Step::Calibrate.begin(progress)?;
+    let calibration = calibrate(&observations, found, limits, *jackknife, progress)?;
+
+    Ok(Outcome { calibration, observations: Some(observations) })
+}
+
+impl Outcome {
+    /// No answer, since the recording is not of `arm`.
+    fn of_another_robot(arm: &Arm, problem: &KinematicsError) -> Self {
+        let problem = format!("robot {:?}: {problem}", arm.robot().name);
+        let verdict = Verdict::Refused(vec![Reason::OtherRobot { problem }]);
+        Self { calibration: Calibration::without_pose(verdict), observations: None }
+    }
+
+    /// Where the answer has the links in each configuration: with the joint offsets that it found.
+    pub fn postures(&self) -> Vec<Posture> {
+        let Some(observations) = &self.observations else { return Vec::new() };
+        let offsets = self.calibration.refinement.as_ref().map(|r| r.joint_offsets);
+        let offsets = offsets.unwrap_or_default();
+        let configurations = observations.configurations.iter();
+        configurations.map(|c| c.posture.moved(&observations.arm, &offsets)).collect()
     }
 }
 

@@ -1,4 +1,6 @@
-//! What long work says of itself while it runs.
+//! What long work says of itself while it runs, and how it is ended.
+
+pub use eyebolt_recording::{Cancelled, Progress};
 
 /// A step of a calibration, in the order they are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,15 +35,13 @@ impl Step {
             Self::Report => "report",
         }
     }
-}
 
-/// Hears when a step begins.
-pub trait Progress {
-    /// `step` begins; the one before it is over.
-    fn begin(&self, step: Step);
-}
-
-/// Hears nothing.
-impl Progress for () {
-    fn begin(&self, _: Step) {}
+    /// Tells `progress` that the step begins.
+    ///
+    /// # Errors
+    ///
+    /// Cancelled.
+    pub fn begin(self, progress: &dyn Progress) -> Result<(), Cancelled> {
+        progress.begin(self.name())
+    }
 }

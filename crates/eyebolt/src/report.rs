@@ -9,5 +9,5 @@ mod picture;
 mod residual;
 
 pub use html::{Context, TruthComparison, html};
-pub use overlay::{overlay, overlays};
+pub use overlay::{Drawn, overlay, overlays};
 pub use picture::Picture;

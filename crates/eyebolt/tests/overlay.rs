@@ -1,7 +1,7 @@
 //! Laws of the overlay picture, on a box that a made-up camera sees.
 
+use eyebolt::observations::{Background, Configuration, ImageSource, Observations};
 use eyebolt::report::overlay;
-use eyebolt::session::{Background, Configuration, ImageSource, Session};
 use eyebolt_geometry::{
     Base, Camera, DepthImage, Distortion, Mask, PinholeCamera, RayTable, Transform,
 };
@@ -33,8 +33,8 @@ fn camera_from_base() -> Transform<Camera, Base> {
     Transform::from_parts(Vector3::new(0.1, -0.05, 1.2), turn)
 }
 
-/// A session of one configuration whose depth image shows the cube exactly, before a wall.
-fn session(width: u32, height: u32) -> Session {
+/// A observations of one configuration whose depth image shows the cube exactly, before a wall.
+fn observations(width: u32, height: u32) -> Observations {
     let focal = 0.8 * f64::from(width);
     let (cx, cy) = (0.5 * f64::from(width), 0.5 * f64::from(height));
     let camera = PinholeCamera::new(width, height, focal, focal, cx, cy, Distortion::None).unwrap();
@@ -52,7 +52,7 @@ fn session(width: u32, height: u32) -> Session {
         base_from_end_effector: Transform::identity(),
         posture,
     };
-    Session {
+    Observations {
         background: Background::None,
         rays: RayTable::new(&camera),
         camera,
@@ -66,29 +66,29 @@ fn session(width: u32, height: u32) -> Session {
     }
 }
 
-/// The session with everything that was seen on the cube `by_m` farther.
-fn seen_farther(by_m: f32) -> Session {
-    let mut session = session(640, 480);
-    let depth = &mut session.configurations[0].depth;
+/// The observations with everything that was seen on the cube `by_m` farther.
+fn seen_farther(by_m: f32) -> Observations {
+    let mut observations = observations(640, 480);
+    let depth = &mut observations.configurations[0].depth;
     let moved = depth.depth_m().iter().map(|z| if *z < 2.0 { z + by_m } else { *z }).collect();
     *depth = DepthImage::new(640, 480, moved).unwrap();
-    session
+    observations
 }
 
-fn picture(session: &Session, color: Option<&ColorImage>) -> eyebolt::report::Picture {
-    let mut raster = Raster::new(&session.camera);
-    overlay(session, &session.configurations[0], &mut raster, &camera_from_base(), color)
+fn picture(observations: &Observations, color: Option<&ColorImage>) -> eyebolt::report::Picture {
+    let mut raster = Raster::new(&observations.camera);
+    overlay(observations, &observations.configurations[0], &mut raster, &camera_from_base(), color)
 }
 
 /// Colours of the cube well inside its outline.
-fn inside(session: &Session) -> Vec<[u8; 3]> {
-    let mut raster = Raster::new(&session.camera);
-    let posture = &session.configurations[0].posture;
-    raster.draw(&session.camera, &posture.meshes(&session.arm, &camera_from_base()));
-    let (width, height) = (session.camera.width(), session.camera.height());
+fn inside(observations: &Observations) -> Vec<[u8; 3]> {
+    let mut raster = Raster::new(&observations.camera);
+    let posture = &observations.configurations[0].posture;
+    raster.draw(&observations.camera, &posture.meshes(&observations.arm, &camera_from_base()));
+    let (width, height) = (observations.camera.width(), observations.camera.height());
     let drawn = raster.to_depth_image().depth_m().iter().map(|z| *z > 0.0).collect();
     let clear = Mask::new(width, height, drawn).unwrap().eroded(3);
-    let rgb = picture(session, None).rgb().to_vec();
+    let rgb = picture(observations, None).rgb().to_vec();
     let pixels = clear.as_slice().iter().zip(rgb);
     pixels.filter_map(|(clear, rgb)| clear.then_some(rgb)).collect()
 }
@@ -96,12 +96,12 @@ fn inside(session: &Session) -> Vec<[u8; 3]> {
 #[test]
 fn it_has_the_cameras_size_whatever_the_colour_picture() {
     for (width, height) in [(1, 1), (7, 5), (320, 240), (641, 479)] {
-        let session = session(width, height);
+        let observations = observations(width, height);
         let whole = ColorImage { width: 30, height: 20, rgb: vec![[9, 99, 199]; 600] };
         let short = ColorImage { rgb: vec![[1; 3]; 7], ..whole };
         let none = ColorImage { width: 0, height: 0, rgb: Vec::new() };
         for color in [None, Some(&whole), Some(&short), Some(&none)] {
-            let picture = picture(&session, color);
+            let picture = picture(&observations, color);
             assert_eq!((picture.width(), picture.height()), (width, height));
             assert_eq!(picture.rgb().len(), (width * height) as usize);
         }
@@ -148,9 +148,9 @@ fn farther_shades_grow_with_the_distance_up_to_the_end_of_the_scale() {
 #[test]
 fn a_mask_has_a_yellow_edge_but_not_along_the_rim_of_the_image() {
     let yellow = |set: Vec<bool>| {
-        let mut session = session(64, 48);
-        session.configurations[0].mask = Some(Mask::new(64, 48, set).unwrap());
-        let picture = picture(&session, None);
+        let mut observations = observations(64, 48);
+        observations.configurations[0].mask = Some(Mask::new(64, 48, set).unwrap());
+        let picture = picture(&observations, None);
         picture.rgb().iter().map(|rgb| *rgb == [255, 225, 0]).collect::<Vec<bool>>()
     };
     assert!(!yellow(vec![true; 64 * 48]).contains(&true));
@@ -162,18 +162,18 @@ fn a_mask_has_a_yellow_edge_but_not_along_the_rim_of_the_image() {
 
 #[test]
 fn the_legend_needs_room() {
-    let paper = |session: &Session| {
-        let picture = picture(session, None);
+    let paper = |observations: &Observations| {
+        let picture = picture(observations, None);
         let corner = picture.rgb()[((picture.height() - 1) * picture.width()) as usize];
         corner.iter().all(|c| *c < 20)
     };
-    assert!(paper(&session(640, 480)));
-    assert!(!paper(&session(160, 120)));
+    assert!(paper(&observations(640, 480)));
+    assert!(!paper(&observations(160, 120)));
 }
 
 #[test]
 fn a_png_holds_the_same_pixels() {
-    let picture = picture(&session(320, 240), None);
+    let picture = picture(&observations(320, 240), None);
     let bytes = picture.encode_png();
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];

@@ -1,7 +1,7 @@
 //! Flags that say what to simulate.
 
-use super::quoted;
 use crate::inputs::packages;
+use crate::shell::quoted;
 use anyhow::{Context, Result, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use eyebolt::robots::{BUILT_IN, BuiltIn};

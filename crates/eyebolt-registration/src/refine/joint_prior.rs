@@ -1,10 +1,10 @@
 //! How far off the joints of this arm are likely to be, from what its joints together show.
 
-use super::evidence::Evidence;
-use super::summary::sandwich;
-use super::weighing::Weighing;
+use super::covariance::sandwich;
+use super::priors::with_priors;
+use super::system::System;
 use crate::arm::MOST_JOINTS;
-use crate::factors::{FIRST_JOINT, State};
+use crate::unknowns::{FIRST_JOINT, State};
 use nalgebra::{SMatrix, SVector};
 
 type Offsets = SVector<f64, MOST_JOINTS>;
@@ -24,34 +24,34 @@ const OVERCONFIDENCE: f64 = 4.0;
 /// three of its deviations.
 const STANDS_OUT: f64 = 3.0;
 
-/// The prior deviation of each joint's offset, radians, that makes what `evidence` says of the
-/// offsets most likely (empirical Bayes: Efron and Morris, Journal of the American Statistical
+/// Standard deviation of the prior of each joint's offset, radians, that makes what `system` says of
+/// the offsets most likely (empirical Bayes: Efron and Morris, Journal of the American Statistical
 /// Association 1973): one for all joints, but for those that stand out.
+///
+/// `gauge`: the joints of whose offsets those of the others tell nothing.
 pub(super) fn estimate(
-    evidence: &[Evidence],
-    weighing: &Weighing,
+    system: &System<'_>,
     state: &State,
+    gauge: [bool; MOST_JOINTS],
 ) -> [f64; MOST_JOINTS] {
-    let Some((mut offsets, covariance)) = seen(evidence, weighing, state) else {
+    let Some((mut offsets, covariance)) = under_open_prior(system, state) else {
         return [LEAST_RAD; MOST_JOINTS];
     };
-    // Of those that the others tell nothing of, nothing is to be learnt for the others either.
-    for joint in (0..MOST_JOINTS).filter(|joint| weighing.apart[*joint]) {
+    for joint in (0..MOST_JOINTS).filter(|joint| gauge[*joint]) {
         offsets[joint] = LARGEST_RAD;
     }
-    most_likely(&offsets, &covariance, weighing.apart).into()
+    most_likely(&offsets, &covariance, gauge).into()
 }
 
 /// What the evidence says of the offsets if they may be anything, and how surely.
-pub(super) fn seen(
-    evidence: &[Evidence],
-    weighing: &Weighing,
+pub(super) fn under_open_prior(
+    system: &System<'_>,
     state: &State,
 ) -> Option<(Offsets, Covariance)> {
-    let open = Weighing { joint_prior_rad: [OPEN_RAD; MOST_JOINTS], ..*weighing };
-    let sum = open.total(evidence, state);
+    let open = [OPEN_RAD; MOST_JOINTS];
+    let sum = with_priors(system.total(), state, &open);
     let step = sum.solve(1e-6)?;
-    let covariance = sandwich(evidence, &open, state, &sum, &step)?;
+    let covariance = sandwich(system, &sum, state, &open, &step)?;
     let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT).into_owned();
     let block = covariance.fixed_view::<MOST_JOINTS, MOST_JOINTS>(FIRST_JOINT, FIRST_JOINT);
     Some((Offsets::from(state.joint_offsets.rad) + joints, block * OVERCONFIDENCE))

@@ -13,29 +13,31 @@ fn mesh() -> TriangleMesh {
     cuboid([0.03, 0.02, 0.025], [0.0, 0.01, 0.0])
 }
 
+const BUDGET: usize = 4_000_000;
+
 static MODEL: LazyLock<LinkModel> = LazyLock::new(|| LinkModel::build(&mesh()));
 
 /// The bytes that a cache writes for [`MODEL`].
 static BYTES: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(built(folder.path()), *MODEL);
-    std::fs::read(folder.path().join("0123abcd.link")).unwrap()
+    std::fs::read(folder.path().join("0123abcd-4000000.link")).unwrap()
 });
 
 fn built(folder: &Path) -> LinkModel {
     let cache = LinkCache::new(folder.to_owned());
-    cache.load_or_build(NAME, || Ok::<_, Infallible>(mesh())).unwrap()
+    cache.load_or_build(NAME, BUDGET, || Ok::<_, Infallible>(mesh())).unwrap()
 }
 
 /// What the cache has in `folder`; `None` where it would build anew.
 fn stored(folder: &Path) -> Option<LinkModel> {
-    LinkCache::new(folder.to_owned()).load_or_build(NAME, || Err(())).ok()
+    LinkCache::new(folder.to_owned()).load_or_build(NAME, BUDGET, || Err(())).ok()
 }
 
 /// What a cache makes of a file of these `bytes`.
 fn read(bytes: &[u8]) -> Option<LinkModel> {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("0123abcd.link"), bytes).unwrap();
+    std::fs::write(folder.path().join("0123abcd-4000000.link"), bytes).unwrap();
     stored(folder.path())
 }
 
@@ -99,13 +101,13 @@ fn what_is_read_is_what_was_built() {
 fn the_same_link_gives_the_same_file() {
     let folder = tempfile::tempdir().unwrap();
     built(folder.path());
-    assert_eq!(std::fs::read(folder.path().join("0123abcd.link")).unwrap(), *BYTES);
+    assert_eq!(std::fs::read(folder.path().join("0123abcd-4000000.link")).unwrap(), *BYTES);
 }
 
 #[test]
 fn a_damaged_file_is_replaced_by_a_whole_one() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("0123abcd.link"), &BYTES[..1000]).unwrap();
+    std::fs::write(folder.path().join("0123abcd-4000000.link"), &BYTES[..1000]).unwrap();
     assert_eq!(built(folder.path()), *MODEL);
     assert_eq!(stored(folder.path()).as_ref(), Some(&*MODEL));
 }
@@ -122,14 +124,14 @@ fn a_folder_that_cannot_be_made_is_no_error() {
 #[test]
 fn a_disabled_cache_builds_every_time_and_hands_on_errors() {
     let cache = LinkCache::disabled();
-    assert_eq!(cache.load_or_build(NAME, || Ok::<_, Infallible>(mesh())).unwrap(), *MODEL);
-    assert_eq!(cache.load_or_build(NAME, || Err("no mesh")), Err("no mesh"));
+    assert_eq!(cache.load_or_build(NAME, BUDGET, || Ok::<_, Infallible>(mesh())).unwrap(), *MODEL);
+    assert_eq!(cache.load_or_build(NAME, BUDGET, || Err("no mesh")), Err("no mesh"));
 }
 
 #[test]
 fn caches_that_write_at_once_leave_a_whole_file_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("0123abcd.link");
+    let path = folder.path().join("0123abcd-4000000.link");
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {

@@ -11,7 +11,7 @@ const VOXEL_M: f32 = 0.005;
 const STEP_M: f64 = 0.26 / 32767.0;
 
 fn field(mesh: &TriangleMesh) -> DistanceField {
-    DistanceField::build(mesh, VOXEL_M, 0.04)
+    DistanceField::build(mesh, VOXEL_M, 0.04, usize::MAX)
 }
 
 /// A closed surface of 512 triangles with bumps and hollows, somewhere.

@@ -89,7 +89,7 @@ fn views_of_the_same_places_count_once() {
     let scenes = scenes(&truth(), None);
     let once: Vec<RefineView<'_>> = observed(&scenes);
     let twice: Vec<RefineView<'_>> = once.iter().chain(&once).cloned().collect();
-    let [once, twice] = [once, twice].map(|views| refined(&views, &truth(), Trust::Both));
+    let [once, twice] = [once, twice].map(|views| refined(&views, &truth(), Trust::All));
     let off = (twice.information - once.information).norm() / once.information.norm();
     assert!(off < 1e-6, "information of the same views twice is off by {off}");
     let off = (twice.covariance - once.covariance).norm() / once.covariance.norm();
@@ -114,7 +114,7 @@ fn refined_with(told: &[Posture; 4]) -> Refinement {
     for (view, posture) in views.iter_mut().zip(told) {
         view.view.posture = posture;
     }
-    refined(&views, &starts()[0], Trust::Both)
+    refined(&views, &starts()[0], Trust::All)
 }
 
 proptest! {

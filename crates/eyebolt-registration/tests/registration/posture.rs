@@ -61,11 +61,11 @@ proptest! {
     #[test]
     fn nearest_within_a_limit_is_nearest_or_nothing(
         posture in posture(),
-        points in prop::collection::vec((point(0.8), -0.02..0.5_f32), 50),
+        points in prop::collection::vec((point(0.8), -0.02..0.5_f32, 0..5_usize), 50),
     ) {
-        for (p, limit) in points {
+        for (p, limit, first) in points {
             let nearest = posture.nearest(&ARM, &p).unwrap();
-            match posture.nearest_within(&ARM, &p, limit) {
+            match posture.nearest_within(&ARM, &p, limit, first) {
                 Some(within) => {
                     prop_assert!(within.distance_m < limit);
                     prop_assert_eq!(within.distance_m, nearest.distance_m);

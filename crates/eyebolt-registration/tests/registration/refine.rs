@@ -3,8 +3,8 @@ use crate::strategies::on_threads;
 use crate::synthetic_arm::{ARM, CAMERA, Scene, looking, scenes};
 use eyebolt_geometry::{Base, Camera, Tangent, Transform};
 use eyebolt_registration::{
-    JointPrior, Label, Labels, RefineOptions, RefineView, Refinement, Silhouette, StopReason,
-    Trust, refine,
+    JointPrior, Label, Labels, OUTLINES, Reach, RefineOptions, RefineView, Refinement, SURFACES,
+    Silhouette, StopReason, Trust, refine,
 };
 use eyebolt_render::Raster;
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -48,13 +48,7 @@ pub fn refined(
 ) -> Refinement {
     let mut rasters: Vec<Raster> = views.iter().map(|_| Raster::new(&CAMERA)).collect();
     let joint_prior = JointPrior::Estimated;
-    let options = RefineOptions {
-        iterations: 40,
-        surface_scale_m: 0.05,
-        outline_scale_px: 15.0,
-        trust,
-        joint_prior,
-    };
+    let options = RefineOptions { iterations: 40, reach: Reach::Far, trust, joint_prior };
     refine(&ARM, views, &mut rasters, &(*start).into(), &options)
 }
 
@@ -77,18 +71,18 @@ fn from_centimetres_away_the_pose_is_found_to_less_than_half_a_millimetre() {
     let scenes = scenes(&truth(), None);
     let views = observed(&scenes);
     for start in starts() {
-        let outcome = refined(&views, &start, Trust::Both);
+        let outcome = refined(&views, &start, Trust::All);
         let (mm, degrees) = error(&outcome.camera_from_base);
         assert!(mm < 0.5 && degrees < 0.05, "{mm} mm, {degrees} degrees");
         assert_eq!(outcome.stop, StopReason::Converged);
         assert!(is_a_covariance(&outcome.covariance), "{}", outcome.covariance);
         assert!(is_a_covariance(&outcome.information), "{}", outcome.information);
-        assert!(outcome.depth_scale.abs() < 1e-3, "{}", outcome.depth_scale);
-        assert!(outcome.surface_sigma_m < 2e-3, "{}", outcome.surface_sigma_m);
+        assert!(outcome.depth_scale().abs() < 1e-3, "{}", outcome.depth_scale());
+        assert!(outcome.deviations[SURFACES] < 2e-3, "{}", outcome.deviations[SURFACES]);
         for (fit, view) in outcome.views.iter().zip(&views) {
             assert_eq!(fit.points, view.arm_points.len());
-            assert!(fit.surface_m < 1e-3 && fit.outline_px.unwrap() < 1.0, "{fit:?}");
-            assert!(fit.inliers * 10 > fit.points * 9, "{fit:?}");
+            assert!(fit.surface_m().unwrap() < 1e-3 && fit.outline_px().unwrap() < 1.0, "{fit:?}");
+            assert!(fit.fits[SURFACES].inliers * 10 > fit.points * 9, "{fit:?}");
         }
     }
 }
@@ -97,7 +91,7 @@ fn from_centimetres_away_the_pose_is_found_to_less_than_half_a_millimetre() {
 fn surfaces_and_outlines_agree_where_there_is_no_noise() {
     let scenes = scenes(&truth(), None);
     let views = observed(&scenes);
-    for trust in [Trust::Surfaces, Trust::Outlines] {
+    for trust in [SURFACES, OUTLINES].map(Trust::Only) {
         let outcome = refined(&views, &starts()[0], trust);
         let (mm, degrees) = error(&outcome.camera_from_base);
         assert!(mm < 1.2 && degrees < 0.05, "{trust:?}: {mm} mm, {degrees} degrees");
@@ -114,7 +108,7 @@ fn a_plate_beside_the_arm_that_is_marked_as_arm_does_little_harm() {
     let share = marked(&scenes) as f64 / marked(&clean) as f64;
     assert!(share > 1.03, "the plate shows: {share}");
     for start in starts() {
-        let outcome = refined(&views, &start, Trust::Both);
+        let outcome = refined(&views, &start, Trust::All);
         let (mm, degrees) = error(&outcome.camera_from_base);
         assert!(mm < 2.0 && degrees < 0.2, "{mm} mm, {degrees} degrees");
         assert!(is_a_covariance(&outcome.covariance), "{}", outcome.covariance);
@@ -128,9 +122,9 @@ fn a_depth_that_is_too_short_shows_in_its_scale() {
         let shorter = scene.depth.depth_m().iter().map(|z| z / 1.01).collect();
         scene.depth = eyebolt_geometry::DepthImage::new(320, 240, shorter).unwrap();
     }
-    let outcome = refined(&observed(&scenes), &truth(), Trust::Both);
+    let outcome = refined(&observed(&scenes), &truth(), Trust::All);
     let (mm, degrees) = error(&outcome.camera_from_base);
-    assert!((outcome.depth_scale - 0.01).abs() < 0.002, "{}", outcome.depth_scale);
+    assert!((outcome.depth_scale() - 0.01).abs() < 0.002, "{}", outcome.depth_scale());
     assert!(mm < 3.0 && degrees < 0.1, "{mm} mm, {degrees} degrees");
 }
 
@@ -146,7 +140,7 @@ fn an_outline_seen_too_wide_shows_as_excess() {
             });
             view.silhouette = Silhouette::new(&labels);
         }
-        let found_px = refined(&views, &truth(), Trust::Both).outline_px;
+        let found_px = refined(&views, &truth(), Trust::All).outline_px();
         assert!((found_px - excess_px).abs() < 0.3, "{found_px} instead of {excess_px} pixels");
     }
 }
@@ -157,7 +151,7 @@ fn one_thread_or_two_give_the_same_bytes() {
     let views = observed(&scenes);
     let start = starts()[1];
     let outcomes = [1, 2].map(|threads| {
-        let outcome = on_threads(threads, || refined(&views, &start, Trust::Both));
+        let outcome = on_threads(threads, || refined(&views, &start, Trust::All));
         let pose = outcome.camera_from_base.matrix();
         let numbers =
             pose.iter().chain(outcome.covariance.iter()).chain(outcome.information.iter());
@@ -177,11 +171,11 @@ fn without_evidence_the_pose_is_underdetermined_and_stays() {
         view.silhouette = nothing.clone();
     }
     for views in [&views[..], &[]] {
-        let outcome = refined(views, &truth(), Trust::Both);
+        let outcome = refined(views, &truth(), Trust::All);
         assert_eq!(outcome.stop, StopReason::Underdetermined);
         assert_eq!(outcome.camera_from_base, truth());
         assert_eq!(outcome.views.len(), views.len());
-        assert!(outcome.views.iter().all(|fit| fit.points == 0 && fit.outline_px.is_none()));
+        assert!(outcome.views.iter().all(|fit| fit.points == 0 && fit.outline_px().is_none()));
         assert!(outcome.covariance.iter().all(|v| *v == f64::INFINITY));
         assert_eq!(outcome.last_step, Vector6::zeros());
     }
@@ -197,6 +191,6 @@ fn a_single_point_does_not_determine_a_pose() {
         view.silhouette = nothing.clone();
     }
     views[0].arm_points = scenes[0].points(3, 2)[..1].to_vec();
-    let outcome = refined(&views, &truth(), Trust::Both);
+    let outcome = refined(&views, &truth(), Trust::All);
     assert_eq!(outcome.stop, StopReason::Underdetermined);
 }

@@ -1,28 +1,41 @@
-//! How far off an answer is expected to be.
+//! How far off an answer is expected to be: ARCHITECTURE.md, (8) to (11).
 //!
 //! Three sources, each seen by another experiment: the scatter of the residuals (the sandwich
 //! covariance of the refinement), what changes when configurations are left out (jackknife), and
-//! what is wrong in every frame alike, which neither of these can see: it shows where the two kinds
-//! of evidence, surfaces and outlines, disagree.
+//! what is wrong in every frame alike, which neither of these can see: it shows where the kinds
+//! of evidence disagree.
 //!
 //! Offsets of joints are unknowns in all three. One that nothing determines is as uncertain as this
 //! arm's offsets are large, and the pose is with it.
 
-use super::Work;
-use crate::refine::{LEAVE_ONE_OUT, ONE_SIDED};
+use super::deviation::Deviation;
+use super::jackknife::{Jackknife, jackknife, left_out};
+use super::one_kind::{one_kind_each, spread};
+use crate::refine::Workspace;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{
-    JointPrior, MOST_JOINTS, RefineOptions, RefineView, Refinement, Start, Trust,
-};
+use eyebolt_registration::{MOST_JOINTS, RefineView, Refinement, Start};
 use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, SVector, Vector3, Vector6};
 
-/// A difference between two poses, or its expected size.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Deviation {
-    /// Distance that the centre of the workspace moves, metres.
-    pub translation_m: f64,
-    /// Angle, radians.
-    pub rotation_rad: f64,
+/// An experiment that shows how far off an answer may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorSource {
+    /// The scatter of the residuals: the sandwich covariance.
+    Scatter,
+    /// Leaving out single configurations: the jackknife.
+    LeftOut,
+    /// What single kinds of evidence would say alone.
+    Disagreement,
+    /// Allowed for what other kinds of evidence would have told, where there is only one.
+    OneKind,
+}
+
+/// What one source adds to the expected error; parts add up in squares.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorPart {
+    /// The source.
+    pub source: ErrorSource,
+    /// Root mean square error from it alone.
+    pub expected: Deviation,
 }
 
 /// How far off an answer is expected to be.
@@ -30,14 +43,16 @@ pub struct Deviation {
 pub struct ErrorEstimate {
     /// Root mean square error to expect, of all sources together.
     pub expected: Deviation,
+    /// What each source adds.
+    pub parts: Vec<ErrorPart>,
     /// Covariance of the answer, translation (m) then rotation (rad), in the answer's frame, as
     /// [`Transform::retract`] has them; all sources together.
     pub covariance: Matrix6<f64>,
     /// What each configuration changes when it is left out, in the order of those used; `None`
     /// with fewer than three of them.
     pub leave_one_out: Option<Vec<Deviation>>,
-    /// Difference between the answers that surfaces alone and outlines alone would give; `None`
-    /// where no outline was seen.
+    /// The largest difference between the answers that single kinds of evidence would give; `None`
+    /// where only one kind was seen.
     pub disagreement: Option<Deviation>,
     /// Centre of the workspace, base frame: where errors are measured.
     pub workspace_in_base: Point3<f64>,
@@ -49,10 +64,7 @@ impl ErrorEstimate {
     /// The largest deviation of any configuration left out.
     pub fn worst_left_out(&self) -> Option<Deviation> {
         let all = self.leave_one_out.as_ref()?;
-        Some(all.iter().fold(Deviation::default(), |worst, d| Deviation {
-            translation_m: worst.translation_m.max(d.translation_m),
-            rotation_rad: worst.rotation_rad.max(d.rotation_rad),
-        }))
+        Some(all.iter().copied().fold(Deviation::default(), Deviation::larger))
     }
 
     /// Root mean square of the deviations.
@@ -68,140 +80,93 @@ impl ErrorEstimate {
     }
 }
 
-/// Estimates the error of `refinement`, which saw `observed` of the configurations of `work`.
+/// Estimates the error of `refinement`, which saw `seen` of the configurations of `work`.
 pub(crate) fn estimate(
-    work: &mut Work<'_>,
+    work: &mut Workspace<'_, '_>,
     refinement: &Refinement,
-    observed: &[RefineView<'_>],
+    seen: &[RefineView<'_>],
+    how: Jackknife,
 ) -> ErrorEstimate {
     let pose = refinement.camera_from_base;
     let workspace_in_base = workspace(work);
-    let mut covariance = refinement.covariance;
-    let left_out = leave_one_out(work, observed, refinement);
+    let left_out = left_out(work, seen, refinement, how);
+    let one_kind = one_kind_each(work, seen, refinement);
+    let mut sources = vec![(ErrorSource::Scatter, refinement.covariance)];
     if let Some(ends) = &left_out {
-        covariance += jackknife(&deltas(&pose, ends));
+        sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, ends))));
     }
-    let sides = refinement
-        .views
-        .iter()
-        .any(|view| view.outline_px.is_some())
-        .then(|| one_sided(work, observed, refinement));
-    covariance += match &sides {
-        // The answer lies between the two, and either may be the better one.
-        Some([surfaces, outlines]) => {
-            let half = 0.5 * surfaces.camera_from_base.local(&outlines.camera_from_base);
-            half * half.transpose()
+    sources.push(match &one_kind {
+        // The answer lies between them, and any of them may be the best one.
+        Some(ends) => (ErrorSource::Disagreement, spread(&deltas(&pose, ends))),
+        None => {
+            let variance = ONE_KIND_SIGMA.map(|sigma| sigma * sigma);
+            (ErrorSource::OneKind, Matrix6::from_diagonal(&variance))
         }
-        None => Matrix6::from_diagonal(&ONE_KIND_SIGMA.map(|sigma| sigma * sigma)),
+    });
+    let covariance: Matrix6<f64> = sources.iter().map(|(_, covariance)| covariance).sum();
+    let parts = sources.into_iter().map(|(source, covariance)| ErrorPart {
+        source,
+        expected: expected(&covariance, &pose, &workspace_in_base),
+    });
+    let between = |a: &Start, b: &Start| {
+        Deviation::between(&a.camera_from_base, &b.camera_from_base, &workspace_in_base)
     };
-    let between = |a: &Transform<Camera, Base>, b: &Start| {
-        between(a, &b.camera_from_base, &workspace_in_base)
-    };
-    let joint_sigma_rad = joint_sigma(refinement, left_out.as_deref(), sides.as_ref());
+    let end = refinement.end();
     let to_optical = to_optical(work);
     ErrorEstimate {
         expected: expected(&covariance, &pose, &workspace_in_base),
+        parts: parts.collect(),
         covariance: to_optical * covariance * to_optical.transpose(),
-        leave_one_out: left_out.map(|ends| ends.iter().map(|end| between(&pose, end)).collect()),
-        disagreement: sides.map(|[a, b]| between(&a.camera_from_base, &b)),
+        leave_one_out: left_out
+            .as_ref()
+            .map(|ends| ends.iter().map(|e| between(&end, e)).collect()),
+        disagreement: one_kind.as_ref().map(|ends| {
+            let pairs = ends
+                .iter()
+                .enumerate()
+                .flat_map(|(i, a)| ends[i + 1..].iter().map(move |b| (a, b)));
+            let apart = pairs.map(|(a, b)| between(a, b));
+            apart.fold(Deviation::default(), Deviation::larger)
+        }),
         workspace_in_base,
-        joint_sigma_rad,
+        joint_sigma_rad: joint_sigma(refinement, left_out.as_deref(), one_kind.as_deref()),
     }
 }
 
-/// Deviation of an answer from one kind of evidence alone, along each axis, m and rad: what surfaces
-/// alone were off by on the LBR Med7 recording (15 mm and 1 degree in all).
+/// Standard deviation of an answer from one kind of evidence alone, along each axis, m and rad: what
+/// surfaces alone were off by on the LBR Med7 recording (15 mm and 1 degree in all).
 const ONE_KIND_SIGMA: Vector6<f64> = Vector6::new(0.009, 0.009, 0.009, 0.01, 0.01, 0.01);
 
-/// What surfaces alone and outlines alone make of `refinement`, with joints as likely to be off.
-fn one_sided(
-    work: &mut Work<'_>,
-    observed: &[RefineView<'_>],
-    refinement: &Refinement,
-) -> [Start; 2] {
-    [Trust::Surfaces, Trust::Outlines].map(|trust| {
-        let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
-        let options = RefineOptions { trust, joint_prior, ..ONE_SIDED };
-        let (arm, rasters) = (&work.session.arm, &mut work.rasters);
-        let start = &refinement.end();
-        eyebolt_registration::refine(arm, observed, rasters, start, &options).end()
-    })
-}
-
 /// Middle of where the end-effector was over all configurations.
-fn workspace(work: &Work<'_>) -> Point3<f64> {
-    let tip =
-        |index: &usize| work.session.configurations[*index].base_from_end_effector.translation_m();
+fn workspace(work: &Workspace<'_, '_>) -> Point3<f64> {
+    let tip = |index: &usize| {
+        work.observations.configurations[*index].base_from_end_effector.translation_m()
+    };
     let tips: Vec<Vector3<f64>> = work.indices.iter().map(tip).collect();
     Point3::from(tips.iter().sum::<Vector3<f64>>() / tips.len().max(1) as f64)
-}
-
-/// Refines on from `refinement` without each of the views in turn; `None` with fewer than three.
-fn leave_one_out(
-    work: &mut Work<'_>,
-    observed: &[RefineView<'_>],
-    refinement: &Refinement,
-) -> Option<Vec<Start>> {
-    if observed.len() < 3 {
-        return None;
-    }
-    let arm = &work.session.arm;
-    let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
-    let options = RefineOptions { joint_prior, ..LEAVE_ONE_OUT };
-    let start = &refinement.end();
-    let ends = (0..observed.len()).map(|left_out| {
-        let kept: Vec<RefineView<'_>> = observed
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| *index != left_out)
-            .map(|(_, view)| view.clone())
-            .collect();
-        let rasters = &mut work.rasters[..kept.len()];
-        eyebolt_registration::refine(arm, &kept, rasters, start, &options).end()
-    });
-    Some(ends.collect())
 }
 
 fn deltas(pose: &Transform<Camera, Base>, ends: &[Start]) -> Vec<Vector6<f64>> {
     ends.iter().map(|end| pose.local(&end.camera_from_base)).collect()
 }
 
-/// Jackknife covariance (Efron and Stein, Annals of Statistics 1981) of an answer from `deltas`, what
-/// it changes by with each part left out.
-fn jackknife<const N: usize>(deltas: &[SVector<f64, N>]) -> SMatrix<f64, N, N> {
-    let count = deltas.len() as f64;
-    let mean = deltas.iter().sum::<SVector<f64, N>>() / count;
-    let scatter = deltas.iter().map(|d| (d - mean) * (d - mean).transpose());
-    scatter.sum::<SMatrix<f64, N, N>>() * ((count - 1.0) / count)
-}
-
 /// Standard deviations of the joints' offsets, from the same sources as the pose's.
 fn joint_sigma(
     refinement: &Refinement,
     left_out: Option<&[Start]>,
-    sides: Option<&[Start; 2]>,
+    one_kind: Option<&[Start]>,
 ) -> [f64; MOST_JOINTS] {
-    let offsets = |end: &Start| SVector::from(end.joint_offsets.rad);
+    let offsets = |ends: &[Start]| -> Vec<SVector<f64, MOST_JOINTS>> {
+        ends.iter().map(|end| SVector::from(end.joint_offsets.rad)).collect()
+    };
     let mut variance = SVector::from(refinement.joint_sigma_rad).map(|sigma| sigma * sigma);
     if let Some(ends) = left_out {
-        let offsets: Vec<_> = ends.iter().map(offsets).collect();
-        variance += jackknife(&offsets).diagonal();
+        variance += jackknife(&offsets(ends)).diagonal();
     }
-    if let Some([surfaces, outlines]) = sides {
-        variance += (offsets(surfaces) - offsets(outlines)).map(|apart| (0.5 * apart).powi(2));
+    if let Some(ends) = one_kind {
+        variance += spread(&offsets(ends)).diagonal();
     }
     variance.map(f64::sqrt).into()
-}
-
-fn between(
-    a: &Transform<Camera, Base>,
-    b: &Transform<Camera, Base>,
-    at_in_base: &Point3<f64>,
-) -> Deviation {
-    Deviation {
-        translation_m: (a.point(at_in_base) - b.point(at_in_base)).norm(),
-        rotation_rad: a.rotation().angle_to(&b.rotation()),
-    }
 }
 
 /// Root mean square of the errors that `covariance` lets one expect.
@@ -212,7 +177,7 @@ fn expected(
 ) -> Deviation {
     // A point of the base moves by the translation and by the rotation about the base's origin.
     let arm = pose.direction(&at_in_base.coords);
-    let mut by_pose = nalgebra::SMatrix::<f64, 3, 6>::zeros();
+    let mut by_pose = SMatrix::<f64, 3, 6>::zeros();
     by_pose.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity());
     by_pose.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
     let point = by_pose * covariance * by_pose.transpose();
@@ -220,9 +185,9 @@ fn expected(
     Deviation { translation_m: point.trace().sqrt(), rotation_rad: rotation.sqrt() }
 }
 
-/// Turns covariances from the session's camera frame to the optical one.
-fn to_optical(work: &Work<'_>) -> Matrix6<f64> {
-    let turn = work.session.optical_from_camera.rotation().to_rotation_matrix();
+/// Turns covariances from the observations' camera frame to the optical one.
+fn to_optical(work: &Workspace<'_, '_>) -> Matrix6<f64> {
+    let turn = work.observations.optical_from_camera.rotation().to_rotation_matrix();
     let mut both = Matrix6::zeros();
     both.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
     both.fixed_view_mut::<3, 3>(3, 3).copy_from(turn.matrix());

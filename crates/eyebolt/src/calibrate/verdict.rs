@@ -1,26 +1,13 @@
 //! Whether to trust an answer.
 
-use super::shortlist::total;
-use super::{Agreement, ConfigurationOutcome, Deviation, Dropped, ErrorEstimate};
-use crate::record::OutsideLimits;
+use super::deviation::Deviation;
+use super::error::ErrorEstimate;
+use super::limits::Limits;
+use super::reason::{Reason, Verdict};
+use crate::joint_limits::OutsideLimits;
+use crate::refine::{Agreement, ConfigurationOutcome, misplaced, too_many_misplaced, total};
 use eyebolt_registration::{ArmJoint, Refinement, StopReason};
 use eyebolt_robot::JointKind;
-
-/// What an answer has to meet to be trusted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Distinct arm configurations at least.
-    pub configurations: usize,
-    /// Expected error at most.
-    pub expected: Deviation,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        let expected = Deviation { translation_m: 0.020, rotation_rad: 1.2f64.to_radians() };
-        Self { configurations: 3, expected }
-    }
-}
 
 /// Joints may be this far outside their limits: zeros and limits of real arms differ by as much from
 /// those of their description, and joints overshoot.
@@ -30,9 +17,6 @@ const OUTSIDE_M: f64 = 0.01;
 /// more says that its recorded positions are another's.
 const JOINT_OFF_RAD: f64 = 0.035;
 const FIRST_JOINT_SIGMAS: f64 = 2.0;
-/// Share of configurations that may have a misplaced link before the joints themselves are in
-/// doubt.
-const MISPLACED_SHARE: f64 = 0.25;
 /// Share of the posed arm's pixels that may be contradicted: rims and masks are never exact.
 const CONTRADICTED_SHARE: f64 = 0.25;
 /// Share of the masked pixels that the posed arm need not explain: tools and cables.
@@ -43,137 +27,8 @@ const UNEXPLAINED_OF_MOVING: f64 = 0.45;
 const SETTLED_M: f64 = 2e-3;
 const SETTLED_RAD: f64 = 2e-3;
 
-/// Trusted, or refused with reasons.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// Use it; it is off by about as much as expected.
-    Trusted,
-    /// Do not use it.
-    Refused(Vec<Reason>),
-}
-
-/// Why an answer is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Reason {
-    /// Too few distinct configurations.
-    #[error(
-        "{used} distinct arm configurations could be used, {needed} are needed: record the arm in \
-         more positions, far apart and turned differently"
-    )]
-    FewConfigurations {
-        /// Configurations used.
-        used: usize,
-        /// Configurations needed.
-        needed: usize,
-    },
-    /// No pose was found.
-    #[error(
-        "no camera pose explains what was seen: check that the robot description is this robot's \
-         and that the arm is in view and moves between the configurations"
-    )]
-    NothingFound,
-    /// The robot in the recording is not the robot described.
-    #[error("the recording does not fit the robot: {problem}")]
-    OtherRobot {
-        /// What does not fit.
-        problem: String,
-    },
-    /// Nothing that was seen can be held against the posed arm.
-    #[error(
-        "nothing was seen where the posed arm would be: check that the arm is in view and that the \
-         depth images are not empty there"
-    )]
-    OutOfView,
-    /// The evidence leaves the pose open.
-    #[error("the data do not determine the pose: record the arm in positions farther apart")]
-    Underdetermined,
-    /// The refinement did not settle.
-    #[error(
-        "the refinement was still moving by {translation_mm:.1} mm and {rotation_deg:.2} degrees \
-         when it was stopped"
-    )]
-    NotSettled {
-        /// Last step, millimetres.
-        translation_mm: f64,
-        /// Last step, degrees.
-        rotation_deg: f64,
-    },
-    /// A joint was recorded where the robot description does not let it be.
-    #[error("{0}")]
-    OutsideLimits(OutsideLimits),
-    /// Links are not where the joints put them in too many configurations.
-    #[error(
-        "in {misplaced} of {judged} configurations a link is not where the joints put it: check \
-         that joint names and order, joint zeros and the robot description are this arm's"
-    )]
-    Misplaced {
-        /// Configurations with a misplaced link.
-        misplaced: usize,
-        /// Configurations looked at.
-        judged: usize,
-    },
-    /// The answer takes a joint to be farther off than zeros are.
-    #[error(
-        "joint {joint:?} would have to stand {offset_deg:+.1} degrees from where it says (at most \
-         {limit_deg:.1} are trusted): check that joint names and order, joint zeros and the robot \
-         description are this arm's"
-    )]
-    JointOff {
-        /// Name of the joint.
-        joint: String,
-        /// How much farther it stands than it says, degrees.
-        offset_deg: f64,
-        /// Allowed, either way, degrees.
-        limit_deg: f64,
-    },
-    /// The camera sees through the posed arm.
-    #[error(
-        "{percent:.0} % of the posed arm's pixels are contradicted by depth or mask (at most \
-         {limit:.0} % are trusted): the robot description or the joints are not this arm's"
-    )]
-    Contradicted {
-        /// Percent of the pixels.
-        percent: f64,
-        /// Percent allowed.
-        limit: f64,
-    },
-    /// The posed arm does not explain what was seen.
-    #[error(
-        "{percent:.0} % of the arm's pixels are not on the posed arm (at most {limit:.0} % are \
-         trusted): the robot description lacks a part, or is not this arm's"
-    )]
-    Unexplained {
-        /// Percent of the pixels.
-        percent: f64,
-        /// Percent allowed.
-        limit: f64,
-    },
-    /// Another pose explains the data nearly as well.
-    #[error(
-        "another camera pose explains the data nearly as well: record the arm in positions that \
-         tell its sides apart"
-    )]
-    Ambiguous,
-    /// The expected error is too large.
-    #[error(
-        "the expected error is {translation_mm:.1} mm and {rotation_deg:.2} degrees, more than the \
-         {limit_mm:.1} mm and {limit_deg:.2} degrees allowed: record more configurations, nearer \
-         to the camera"
-    )]
-    Inaccurate {
-        /// Expected error, millimetres.
-        translation_mm: f64,
-        /// Expected error, degrees.
-        rotation_deg: f64,
-        /// Allowed, millimetres.
-        limit_mm: f64,
-        /// Allowed, degrees.
-        limit_deg: f64,
-    },
-}
-
 /// What a verdict is based on.
-pub(crate) struct Evidence<'a> {
+pub(crate) struct Findings<'a> {
     pub refinement: &'a Refinement,
     /// The arm's joints, in the order of the refinement's offsets.
     pub joints: &'a [ArmJoint],
@@ -195,26 +50,26 @@ pub(crate) fn nothing_found(
     Verdict::Refused(known.chain([Reason::NothingFound]).collect())
 }
 
-/// Weighs the evidence.
-pub(crate) fn judge(evidence: &Evidence<'_>, limits: &Limits) -> Verdict {
-    let mut reasons: Vec<Reason> = outside(evidence.outside_limits).into_iter().collect();
-    match misplaced(evidence.outcomes) {
+/// Weighs the findings.
+pub(crate) fn judge(findings: &Findings<'_>, limits: &Limits) -> Verdict {
+    let mut reasons: Vec<Reason> = outside(findings.outside_limits).into_iter().collect();
+    match misplaced_reason(findings.outcomes) {
         Some(misplaced) => reasons.push(misplaced),
-        None => reasons.extend(few_configurations(evidence.outcomes, limits)),
+        None => reasons.extend(few_configurations(findings.outcomes, limits)),
     }
-    if evidence.refinement.stop == StopReason::Underdetermined {
+    if findings.refinement.stop == StopReason::Underdetermined {
         reasons.push(Reason::Underdetermined);
         return Verdict::Refused(reasons);
     }
-    reasons.extend(joint_off(evidence));
-    reasons.extend(disagreement(evidence));
+    reasons.extend(joint_off(findings));
+    reasons.extend(disagreement(findings));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
     if reasons.iter().all(is_few_configurations) {
-        reasons.extend(stopped(evidence.refinement));
-        if evidence.rival {
+        reasons.extend(stopped(findings.refinement));
+        if findings.rival {
             reasons.push(Reason::Ambiguous);
         }
-        reasons.extend(inaccurate(&evidence.error.expected, limits));
+        reasons.extend(inaccurate(&findings.error.expected, limits));
     }
     if reasons.is_empty() { Verdict::Trusted } else { Verdict::Refused(reasons) }
 }
@@ -239,17 +94,15 @@ fn outside(joints: &[OutsideLimits]) -> Option<Reason> {
     (by_allowed(worst) > 1.0).then(|| Reason::OutsideLimits(worst.clone()))
 }
 
-fn misplaced(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
-    let misplaced = outcomes.iter().filter(|o| is_misplaced(o)).count();
-    let judged = misplaced + outcomes.iter().filter(|o| o.dropped.is_none()).count();
-    (misplaced as f64 > MISPLACED_SHARE * judged as f64)
-        .then_some(Reason::Misplaced { misplaced, judged })
+fn misplaced_reason(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
+    let (misplaced, judged) = misplaced(outcomes);
+    too_many_misplaced(outcomes).then_some(Reason::Misplaced { misplaced, judged })
 }
 
 /// The joint that is farthest off, if that is too far.
-fn joint_off(evidence: &Evidence<'_>) -> Option<Reason> {
-    let offsets = evidence.refinement.joint_offsets.rad;
-    let joints = evidence.joints.iter().zip(offsets).zip(evidence.error.joint_sigma_rad);
+fn joint_off(findings: &Findings<'_>) -> Option<Reason> {
+    let offsets = findings.refinement.joint_offsets.rad;
+    let joints = findings.joints.iter().zip(offsets).zip(findings.error.joint_sigma_rad);
     // The first joint's is no part of the pose and often hardly seen: only what is sure counts. Others
     // take the pose along with them, sure or not: two exchanged names look like uncertain offsets.
     let by = |joint: &ArmJoint, rad: f64, sigma: f64| match joint.defines_base {
@@ -265,16 +118,6 @@ fn joint_off(evidence: &Evidence<'_>) -> Option<Reason> {
     })
 }
 
-fn is_misplaced(outcome: &ConfigurationOutcome) -> bool {
-    matches!(outcome.dropped, Some(Dropped::Misplaced(_)))
-}
-
-/// Whether the configurations marked as misplaced, `misplaced` of them, are few enough to go on
-/// without them.
-pub(crate) fn may_be_dropped(count: usize, outcomes: &[ConfigurationOutcome]) -> bool {
-    count > 0 && misplaced(outcomes).is_none()
-}
-
 fn stopped(refinement: &Refinement) -> Option<Reason> {
     let step = &refinement.last_step;
     let (metres, radians) = (step.fixed_rows::<3>(0).norm(), step.fixed_rows::<3>(3).norm());
@@ -284,11 +127,11 @@ fn stopped(refinement: &Refinement) -> Option<Reason> {
     })
 }
 
-fn disagreement(evidence: &Evidence<'_>) -> Vec<Reason> {
-    let views: Vec<Agreement> = evidence.outcomes.iter().filter_map(|o| o.agreement).collect();
+fn disagreement(findings: &Findings<'_>) -> Vec<Reason> {
+    let views: Vec<Agreement> = findings.outcomes.iter().filter_map(|o| o.agreement).collect();
     let all = total(&views);
     let unexplained_limit =
-        if evidence.masks { UNEXPLAINED_OF_MASKS } else { UNEXPLAINED_OF_MOVING };
+        if findings.masks { UNEXPLAINED_OF_MASKS } else { UNEXPLAINED_OF_MOVING };
     let (contradicted, unexplained) = (all.contradicted_share(), all.unexplained_share());
     if !all.is_in_view() {
         return vec![Reason::OutOfView];

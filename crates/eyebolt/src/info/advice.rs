@@ -1,6 +1,7 @@
 //! What to do about what is not as it should be.
 
-use super::Info;
+use super::form::Info;
+use eyebolt_robot::Input;
 
 /// Fewer configurations are refused; and as many make a good answer.
 const FEWEST: usize = 3;
@@ -35,7 +36,7 @@ pub(super) fn advice(info: &Info) -> Vec<String> {
 
 fn robot(info: &Info, advice: &mut Vec<String>) {
     let Some(robot) = &info.robot else {
-        advice.push(format!("{NO_ROBOT}: give --robot arm.urdf, or record /robot_description"));
+        advice.push(format!("{NO_ROBOT}: give {}, or record /robot_description", Input::ROBOT));
         return;
     };
     if !robot.missing_joints.is_empty() {

@@ -1,23 +1,23 @@
 //! What the depth of a recording is like.
 
-use super::Depth;
-use eyebolt_recording::{Range, Recording, RecordingError};
+use super::form::Depth;
+use eyebolt_recording::{FrameSource, Range, RecordingError};
 
 /// Frames looked at.
 const FRAMES: usize = 10;
 /// Pixels looked at in each.
 const PIXELS: usize = 20_000;
 
-/// Statistics over frames of `recording`, evenly chosen.
-pub(super) fn depth_statistics(recording: &Recording) -> Result<Depth, RecordingError> {
-    let count = recording.frame_names().len();
+/// Statistics over frames of `source`, evenly chosen.
+pub(super) fn depth_statistics(source: &dyn FrameSource) -> Result<Depth, RecordingError> {
+    let count = source.frame_names().len();
     let looked_at = count.min(FRAMES);
     let mut size = None;
     let (mut seen, mut pixels) = (Vec::new(), 0_usize);
     for i in 0..looked_at {
         let index = i * count.saturating_sub(1) / (looked_at - 1).max(1);
-        let frame = match recording.read_frame(index) {
-            Err(error) if recording.may_leave_out(&error) => continue,
+        let frame = match source.read_frame(index) {
+            Err(error) if source.may_leave_out(&error) => continue,
             read => read?,
         };
         size = frame.range.size();
@@ -40,11 +40,11 @@ pub(super) fn depth_statistics(recording: &Recording) -> Result<Depth, Recording
     };
     Ok(Depth {
         size,
-        intrinsics_px: recording.camera().map(|c| [c.fx(), c.fy(), c.cx(), c.cy()]),
-        frame_id: recording.camera_frame_id().map(str::to_owned),
+        intrinsics_px: source.camera().map(|c| [c.fx(), c.fy(), c.cx(), c.cy()]),
+        frame_id: source.camera_frame_id().map(str::to_owned),
         frames_looked_at: looked_at,
         share_valid: if pixels == 0 { 0.0 } else { seen.len() as f64 / pixels as f64 },
         range_m,
-        masks: recording.has_masks(),
+        masks: source.has_masks(),
     })
 }

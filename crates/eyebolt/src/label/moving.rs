@@ -1,8 +1,9 @@
 //! The arm as what moved between configurations, or was not there before.
 
-use crate::session::Configuration;
-use eyebolt_geometry::{DepthImage, Mask};
-use eyebolt_registration::View;
+use super::labeller::Labeller;
+use crate::observations::{Configuration, Observations};
+use eyebolt_geometry::DepthImage;
+use eyebolt_registration::{Label, Labels, Margin};
 use rayon::prelude::*;
 
 /// Depth that changes by less than this from one pixel to the next is one surface, metres at 1 m.
@@ -12,7 +13,7 @@ const LEAST_PATCH: f64 = 2e-4;
 
 /// What a pixel shows in one configuration, against all the others.
 #[derive(Clone, Copy, PartialEq)]
-enum Motion {
+enum Shown {
     /// The background, or no depth.
     Still,
     /// Before a background seen in another configuration.
@@ -21,59 +22,98 @@ enum Motion {
     Alone,
 }
 
-/// For each configuration the pixels that stand clearly before the farthest depth that the other
-/// configurations saw there, or the `background` without the arm; patches too small to be an arm
-/// are left out.
+/// Takes the pixels that stand clearly before the farthest depth that other configurations saw
+/// there, or frames without the arm; patches too small to be an arm are left out.
 ///
 /// Where no other configuration saw anything, a pixel counts if it continues the surface of one
 /// that does.
-pub fn moving_masks(
-    configurations: &[Configuration],
-    background: Option<&DepthImage>,
-) -> Vec<Mask> {
-    let Some(first) = configurations.first() else { return Vec::new() };
-    let (width, height) = (first.depth.width(), first.depth.height());
-    (0..configurations.len())
-        .into_par_iter()
-        .map(|index| {
-            let motion = motion(configurations, background, index);
-            let depth = configurations[index].depth.depth_m();
-            let set = grown(&motion, depth, width as usize);
-            Mask::new(width, height, set).expect("as many pixels as the depth image")
-        })
-        .collect()
+#[derive(Clone, Copy, Debug)]
+pub struct Motion;
+
+impl Labeller for Motion {
+    fn label(&self, observations: &Observations) -> Vec<Labels> {
+        let Observations { configurations, background, camera, .. } = observations;
+        let farthest = Farthest::of(configurations, camera.pixel_count());
+        let one = |(index, configuration): (usize, &Configuration)| {
+            let motion = farthest.motion(index, &configuration.depth, background.depth());
+            let width = configuration.depth.width() as usize;
+            let set = grown(&motion, configuration.depth.depth_m(), width);
+            Labels::from_fn(0..width, 0..configuration.depth.height() as usize, |u, v| {
+                if set[v * width + u] { Label::Arm } else { Label::Background }
+            })
+        };
+        configurations.par_iter().enumerate().map(one).collect()
+    }
 }
 
-fn motion(
-    configurations: &[Configuration],
-    background: Option<&DepthImage>,
-    index: usize,
-) -> Vec<Motion> {
-    let own = configurations[index].depth.depth_m();
-    let others = configurations.iter().enumerate().filter(|(other, _)| *other != index);
-    let mut behind = vec![0f32; own.len()];
-    for depth in others.map(|(_, configuration)| &configuration.depth).chain(background) {
-        for (farthest, z) in behind.iter_mut().zip(depth.depth_m()) {
-            *farthest = farthest.max(*z);
-        }
-    }
-    let judge = |(z, behind): (&f32, &f32)| match (*z > 0.0, *behind > 0.0) {
-        (false, _) => Motion::Still,
-        (true, false) => Motion::Alone,
-        (true, true) if *z < behind - 1.5 * View::tolerance_m(*behind) => Motion::Moved,
-        (true, true) => Motion::Still,
-    };
-    own.iter().zip(&behind).map(judge).collect()
+/// The two farthest depths of each pixel over all configurations: what lies behind one of them is
+/// the farthest that the others saw.
+struct Farthest {
+    depth_m: Vec<f32>,
+    /// Which configuration saw that.
+    seen_in: Vec<u32>,
+    second_m: Vec<f32>,
 }
+
+impl Farthest {
+    fn of(configurations: &[Configuration], pixels: usize) -> Self {
+        let mut found = Self {
+            depth_m: vec![0.0; pixels],
+            seen_in: vec![0; pixels],
+            second_m: vec![0.0; pixels],
+        };
+        let blocks = found.depth_m.par_chunks_mut(BLOCK).zip(found.seen_in.par_chunks_mut(BLOCK));
+        let blocks = blocks.zip(found.second_m.par_chunks_mut(BLOCK)).enumerate();
+        blocks.for_each(|(block, ((farthest, seen_in), second))| {
+            for (number, configuration) in configurations.iter().enumerate() {
+                let depth = configuration.depth.depth_m().iter().skip(block * BLOCK);
+                let places = farthest.iter_mut().zip(seen_in.iter_mut()).zip(second.iter_mut());
+                for (z, ((farthest, seen_in), second)) in depth.zip(places) {
+                    if *z > *farthest {
+                        (*second, *farthest, *seen_in) = (*farthest, *z, number as u32);
+                    } else if *z > *second {
+                        *second = *z;
+                    }
+                }
+            }
+        });
+        found
+    }
+
+    /// What each pixel of configuration `index` shows.
+    fn motion(
+        &self,
+        index: usize,
+        own: &DepthImage,
+        background: Option<&DepthImage>,
+    ) -> Vec<Shown> {
+        let judge = |(at, z): (usize, &f32)| {
+            let own_is_farthest = self.seen_in[at] as usize == index;
+            let others = if own_is_farthest { self.second_m[at] } else { self.depth_m[at] };
+            let behind =
+                background.map_or(others, |background| background.depth_m()[at].max(others));
+            match (*z > 0.0, behind > 0.0) {
+                (false, _) => Shown::Still,
+                (true, false) => Shown::Alone,
+                (true, true) if *z < behind - Margin::Moved.at_m(behind) => Shown::Moved,
+                (true, true) => Shown::Still,
+            }
+        };
+        own.depth_m().iter().enumerate().map(judge).collect()
+    }
+}
+
+/// Pixels that one task looks at.
+const BLOCK: usize = 4096;
 
 /// Connected patches of moved pixels, each with the lonely ones that continue its surface.
-fn grown(motion: &[Motion], depth: &[f32], width: usize) -> Vec<bool> {
+fn grown(motion: &[Shown], depth: &[f32], width: usize) -> Vec<bool> {
     let mut set = vec![false; motion.len()];
     let mut seen = vec![false; motion.len()];
     let least = (LEAST_PATCH * motion.len() as f64) as usize;
     let mut patch = Vec::new();
     for seed in 0..motion.len() {
-        if motion[seed] != Motion::Moved || seen[seed] {
+        if motion[seed] != Shown::Moved || seen[seed] {
             continue;
         }
         patch.clear();
@@ -84,7 +124,7 @@ fn grown(motion: &[Motion], depth: &[f32], width: usize) -> Vec<bool> {
             next += 1;
             for other in neighbours(at, width, motion.len()).into_iter().flatten() {
                 let near = (depth[other] - depth[at]).abs() < CONTINUOUS_M * depth[at].max(1.0);
-                if !seen[other] && motion[other] != Motion::Still && near {
+                if !seen[other] && motion[other] != Shown::Still && near {
                     seen[other] = true;
                     patch.push(other);
                 }

@@ -1,9 +1,12 @@
 //! The arm as what lies near the posed model.
 
+use super::labeller::Labeller;
+use crate::observations::{Configuration, Observations};
 use eyebolt_geometry::{Base, Camera, RayTable, Transform};
-use eyebolt_registration::{ArmModel, Label, Labels, View};
+use eyebolt_registration::{ArmModel, Label, Labels, Margin, Start, View};
 use eyebolt_render::Raster;
 use nalgebra::Point3;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Pixels around the drawn arm that are labelled too: as far as an outline is searched.
@@ -13,13 +16,52 @@ const MASK_EDGE_PX: f32 = 6.0;
 /// Pixels this far inside the outline show the arm's surface undisturbed by its edge.
 const INTERIOR_PX: f32 = 4.0;
 
-/// Depth this near the posed surface is the arm, at depth `z`, metres.
-fn near_m(z: f32) -> f32 {
-    0.8 * View::tolerance_m(z)
+/// Labels what lies near the arm posed as `at` has it, end-effector and rest told apart.
+#[derive(Clone, Copy, Debug)]
+pub struct PosedModel {
+    /// The pose, and how far off the joints are.
+    pub at: Start,
 }
 
-/// Up to this many times as far something is close to the arm.
-const CLOSE: f32 = 2.5;
+impl Labeller for PosedModel {
+    fn label(&self, observations: &Observations) -> Vec<Labels> {
+        let one = |configuration: &Configuration| {
+            let (arm, rays) = (&observations.arm, &observations.rays);
+            let posture = configuration.posture.moved(arm, &self.at.joint_offsets);
+            let view = View { posture: &posture, ..observations.view(configuration) };
+            let pose = &self.at.camera_from_base;
+            let labels = labels_at(arm, &view, rays, &mut Raster::new(view.camera), pose);
+            with_end_effector(labels, arm, &view, rays, pose)
+        };
+        observations.configurations.par_iter().map(one).collect()
+    }
+}
+
+/// `labels` with those pixels of the arm that are nearest to a link of the end-effector told apart.
+fn with_end_effector(
+    labels: Labels,
+    arm: &ArmModel,
+    view: &View<'_>,
+    rays: &RayTable,
+    camera_from_base: &Transform<Camera, Base>,
+) -> Labels {
+    let base_from_camera = camera_from_base.inverse().isometry().cast::<f32>();
+    let width = view.depth.width() as usize;
+    let mut last = 0;
+    labels.mapped(|u, v, label| {
+        let z = view.depth.depth_m()[v * width + u];
+        if label != Label::Arm || z <= 0.0 {
+            return label;
+        }
+        let point = base_from_camera * rays.point(v * width + u, z);
+        let limit_m = Margin::Beside.at_m(z);
+        let Some(nearest) = view.posture.nearest_within(arm, &point, limit_m, last) else {
+            return label;
+        };
+        last = nearest.link;
+        if arm.is_end_effector(nearest.link) { Label::EndEffector } else { Label::Arm }
+    })
+}
 
 /// Labels of the rectangle about the arm posed at `camera_from_base`.
 ///
@@ -75,6 +117,7 @@ fn surface_distances(
     let rotation = pose.rotation.to_rotation_matrix();
     let width = view.depth.width() as usize;
     let depth = view.depth.depth_m();
+    let mut last = 0;
     let mut distances = Vec::with_capacity(columns.len() * rows.len());
     for v in rows.clone() {
         for u in columns.clone() {
@@ -85,7 +128,8 @@ fn surface_distances(
                 continue;
             }
             let point = rotation * rays.point(at, z) + pose.translation.vector;
-            let nearest = view.posture.nearest_within(arm, &point, CLOSE * near_m(z));
+            let nearest = view.posture.nearest_within(arm, &point, Margin::Beside.at_m(z), last);
+            last = nearest.map_or(last, |nearest| nearest.link);
             distances.push(nearest.map_or(f32::INFINITY, |nearest| nearest.distance_m));
         }
     }
@@ -112,8 +156,8 @@ fn with_mask(
         let at = (v - first_v) * width + (u - first_u);
         let seen = view.depth.at(u as u32, v as u32);
         let model = raster.depth_m(v * raster.width() + u);
-        let hidden = model.is_some_and(|z| seen > 0.0 && seen < z - View::tolerance_m(z));
-        let disputed = to_mask[at] > MASK_EDGE_PX && distance[at] < near_m(seen);
+        let hidden = model.is_some_and(|z| seen > 0.0 && seen < z - Margin::Search.at_m(z));
+        let disputed = to_mask[at] > MASK_EDGE_PX && distance[at] < Margin::Label.at_m(seen);
         if hidden || disputed { Label::Ignore } else { Label::Background }
     })
 }
@@ -128,10 +172,10 @@ fn without_mask(
     let (first_u, first_v) = (columns.start, rows.start);
     let index = |u: usize, v: usize| (v - first_v) * width + (u - first_u);
     let close = Labels::from_fn(columns.clone(), rows.clone(), |u, v| {
-        let near = near_m(view.depth.at(u as u32, v as u32));
+        let z = view.depth.at(u as u32, v as u32);
         match distance[index(u, v)] {
-            d if d < near => Label::Arm,
-            d if d < CLOSE * near => Label::Ignore,
+            d if d < Margin::Label.at_m(z) => Label::Arm,
+            d if d < Margin::Beside.at_m(z) => Label::Ignore,
             _ => Label::Background,
         }
     });
@@ -153,7 +197,7 @@ pub fn arm_points(
     rays: &RayTable,
     wanted: usize,
 ) -> (Vec<Point3<f32>>, f64) {
-    let inside = labels.distance_out_of(Label::Arm);
+    let inside = labels.distance_where(|label| !label.is_robot());
     let count = inside.iter().filter(|d| **d > INTERIOR_PX).count();
     let stride = ((count as f64 / wanted as f64).sqrt().round() as usize).max(1);
     let (columns, rows) = (labels.columns(), labels.rows());

@@ -1,32 +1,43 @@
 //! The scene without the arm, where the recording has seen it.
 
-use super::eye::Eye;
-use super::{MOST_FRAMES, RecordError, evenly, group};
-use crate::session::{Background, Configuration, ImageSource};
+use super::error::RecordError;
+use super::merge::median_depth;
+use super::projection::Projection;
+use super::reader::MOST_FRAMES;
+use crate::evenly::evenly;
+use crate::observations::{Background, Configuration, ImageSource};
 use eyebolt_geometry::DepthImage;
-use eyebolt_recording::Recording;
-use eyebolt_registration::View;
+use eyebolt_recording::FrameSource;
+use eyebolt_registration::Margin;
 
 /// Of the pixels that both a configuration and the background have seen, so many show the same, if
 /// it is the same scene from the same place: an arm and its shadow fill no more than the rest.
 const LEAST_AGREEMENT: f64 = 0.5;
 
-/// Median of the background frames of `recording`, as far as they are of what `configurations` see.
+/// Median of the background frames of `source`, as far as they are of what `configurations` see.
 pub(super) fn read(
-    recording: &Recording,
-    eye: &Eye,
+    source: &dyn FrameSource,
+    projection: &Projection,
     configurations: &[Configuration],
 ) -> Result<Background, RecordError> {
-    let count = recording.background_count();
+    let count = source.background_count();
     // Clouds that tell their camera, or have one made up, are not of the background's pixels.
-    let same_pixels = matches!(eye.source, ImageSource::DepthImages | ImageSource::ProjectedClouds);
+    let same_pixels =
+        matches!(projection.source, ImageSource::DepthImages | ImageSource::ProjectedClouds);
     if count == 0 || !same_pixels {
         return Ok(Background::None);
     }
     let indices: Vec<usize> = (0..count).collect();
-    let images = evenly(&indices, MOST_FRAMES).map(|index| recording.read_background(index));
-    let images = images.collect::<Result<Vec<DepthImage>, _>>()?;
-    let Some(background) = group::median_depth(&images) else { return Ok(Background::None) };
+    let mut images: Vec<DepthImage> = Vec::new();
+    for index in evenly(&indices, MOST_FRAMES) {
+        match source.read_background(index) {
+            Err(error) if source.may_leave_out(&error) => {
+                tracing::debug!(index, %error, "background frame left out");
+            }
+            read => images.push(read?),
+        }
+    }
+    let Some(background) = median_depth(&images) else { return Ok(Background::None) };
     let of_this_scene = |configuration: &Configuration| {
         agreement(&background, &configuration.depth) >= LEAST_AGREEMENT
     };
@@ -42,7 +53,7 @@ fn agreement(background: &DepthImage, seen: &DepthImage) -> f64 {
     let (mut both, mut same) = (0_usize, 0_usize);
     for (behind, z) in pairs.filter(|(behind, z)| **behind > 0.0 && **z > 0.0) {
         both += 1;
-        same += usize::from((z - behind).abs() < 1.5 * View::tolerance_m(*behind));
+        same += usize::from((z - behind).abs() < Margin::Moved.at_m(*behind));
     }
     same as f64 / both.max(1) as f64
 }

@@ -1,11 +1,11 @@
 //! A calibration as one page that needs nothing else: no network, no files beside it.
 //!
 //! The page is drawn from templates (`html/*.html`) with the numbers of the [`Answer`]; plots and the
-//! scene are worked out here from the session and the pose. Whatever came from outside is escaped.
+//! scene are worked out here from the observations and the pose. Whatever came from outside is escaped.
 
 mod advice;
 mod base64;
-mod evidence;
+mod leftovers;
 mod pictures;
 mod plots;
 mod scene;
@@ -18,18 +18,28 @@ mod uncertainty;
 use super::picture::Picture;
 use crate::answer::Answer;
 use crate::pipeline::Outcome;
+use eyebolt_robot::Input;
 use minijinja::{Value, context};
 
 /// What a page tells that answer and outcome do not know.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// What the recording is called, such as its path.
     pub recording: &'a str,
-    /// The posed arm over each configuration of the session, in their order, as
+    /// The posed arm over each configuration of the observations, in their order, as
     /// [`overlays`](super::overlays) draws them; or none.
     pub pictures: &'a [Picture],
     /// How far off the answer is, where the truth is known.
     pub truth: Option<TruthComparison>,
+    /// What an input is called where this page comes from.
+    pub call_input: fn(Input) -> String,
+}
+
+impl Default for Context<'_> {
+    fn default() -> Self {
+        let call_input = |input: Input| input.to_string();
+        Self { recording: "", pictures: &[], truth: None, call_input }
+    }
 }
 
 /// How far an answer is from the truth of a simulation.
@@ -48,8 +58,8 @@ pub struct TruthComparison {
 /// A refused outcome makes a page too, also without a pose. The same bytes on any number of threads;
 /// a few megabytes with pictures and clouds.
 pub fn html(answer: &Answer, outcome: &Outcome, context: &Context<'_>) -> String {
-    let parts = outcome.session.as_ref().zip(outcome.calibration.refinement.as_ref());
-    let leftovers = parts.map(|(session, fit)| evidence::leftovers(session, fit));
+    let parts = outcome.observations.as_ref().zip(outcome.calibration.refinement.as_ref());
+    let leftovers = parts.map(|(observations, fit)| leftovers::leftovers(observations, fit));
     let leftovers = leftovers.unwrap_or_default();
     let scene = scene::scene(answer, outcome, &leftovers);
     let truth = context.truth.map(|truth| {
@@ -59,12 +69,12 @@ pub fn html(answer: &Answer, outcome: &Outcome, context: &Context<'_>) -> String
         answer => Value::from_serialize(answer),
         recording => context.recording,
         trusted => answer.reasons.is_empty(),
-        reasons => sections::reasons(&outcome.calibration.verdict),
+        reasons => sections::reasons(&outcome.calibration.verdict, context.call_input),
         notes => advice::notes(answer),
         counts => sections::counts(answer),
         transforms => sections::transforms(outcome),
         command => sections::command(answer),
-        sources => Value::from_serialize(uncertainty::sources(answer, outcome)),
+        sources => Value::from_serialize(uncertainty::sources(outcome)),
         truth => truth,
         configurations => sections::configurations(answer, &leftovers),
         plots => sections::plots(answer, outcome, &leftovers),

@@ -3,10 +3,11 @@
 use super::legend::{self, Line};
 use super::picture::{Picture, Rgb};
 use super::{backdrop, residual};
+use crate::observations::{Configuration, ImageSource, Observations};
 use crate::pipeline::Outcome;
-use crate::session::{Configuration, ImageSource, Session};
 use eyebolt_geometry::{Base, Camera, Mask, PinholeCamera, Transform};
 use eyebolt_recording::ColorImage;
+use eyebolt_registration::Posture;
 use eyebolt_render::{ContourPoint, Raster, contour};
 
 const OUTLINE: Rgb = [40, 255, 70];
@@ -22,40 +23,52 @@ pub fn overlays<'a>(
     outcome: &'a Outcome,
     mut color: impl FnMut(&Configuration) -> Option<ColorImage> + 'a,
 ) -> impl Iterator<Item = Picture> + 'a {
-    let parts = outcome.session.as_ref().zip(outcome.calibration.refinement.as_ref());
-    parts.into_iter().flat_map(move |(session, refinement)| {
-        let mut raster = Raster::new(&session.camera);
-        let of_a_camera = session.source != ImageSource::DrawnClouds;
-        let draw = |configuration| {
+    let parts = outcome.observations.as_ref().zip(outcome.calibration.refinement.as_ref());
+    parts.into_iter().flat_map(move |(observations, refinement)| {
+        let mut raster = Raster::new(&observations.camera);
+        let of_a_camera = observations.source != ImageSource::DrawnClouds;
+        let draw = |(configuration, posture): (&Configuration, &Posture)| {
             let color = of_a_camera.then(|| color(configuration)).flatten();
-            let pose = &refinement.camera_from_base;
-            overlay(session, configuration, &mut raster, pose, color.as_ref())
+            let drawn = Drawn { configuration, posture, color: color.as_ref() };
+            overlay(observations, &drawn, &mut raster, &refinement.camera_from_base)
         };
-        session.configurations.iter().map(draw).collect::<Vec<_>>()
+        let postures = outcome.postures();
+        observations.configurations.iter().zip(&postures).map(draw).collect::<Vec<_>>()
     })
+}
+
+/// What an overlay is drawn of.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn<'a> {
+    /// What was seen.
+    pub configuration: &'a Configuration,
+    /// Where the links are drawn.
+    pub posture: &'a Posture,
+    /// A picture to lie behind everything.
+    pub color: Option<&'a ColorImage>,
 }
 
 /// One configuration with the arm posed at `camera_from_base` drawn over it, of the camera's size.
 ///
-/// Behind everything lies `color`, stretched where its size is another, or else the depth image
+/// Behind everything lies the colour picture, stretched where its size is another, or else the depth image
 /// (near is bright). On it the distances of what was seen from the model, blue where it is nearer,
 /// red where farther, and striped where the camera saw through the model; the model's outline in
 /// green, that of the recording's mask in yellow; and a legend if there is room for it.
 /// `raster` is drawn anew.
 pub fn overlay(
-    session: &Session,
-    configuration: &Configuration,
+    observations: &Observations,
+    drawn: &Drawn<'_>,
     raster: &mut Raster,
     camera_from_base: &Transform<Camera, Base>,
-    color: Option<&ColorImage>,
 ) -> Picture {
-    let camera = &session.camera;
-    raster.draw(camera, &configuration.posture.meshes(&session.arm, camera_from_base));
+    let Drawn { configuration, posture, color } = *drawn;
+    let camera = &observations.camera;
+    raster.draw(camera, &posture.meshes(&observations.arm, camera_from_base));
     let mut picture = match color {
         Some(color) => backdrop::from_color(color, camera.width(), camera.height()),
         None => backdrop::from_depth(&configuration.depth),
     };
-    let summary = residual::paint(&mut picture, session, configuration, raster);
+    let summary = residual::paint(&mut picture, observations, configuration, raster);
     if let Some(mask) = &configuration.mask {
         paint_edge(&mut picture, mask);
     }

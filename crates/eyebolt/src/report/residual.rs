@@ -1,7 +1,7 @@
 //! How far what was seen lies from the posed model, pixel by pixel.
 
 use super::picture::{Picture, Rgb};
-use crate::session::{Configuration, Session};
+use crate::observations::{Configuration, Observations};
 use eyebolt_render::Raster;
 
 /// The ends of the colour scale, millimetres.
@@ -34,11 +34,11 @@ pub(super) struct Summary {
 /// counts as its surface.
 pub(super) fn paint(
     picture: &mut Picture,
-    session: &Session,
+    observations: &Observations,
     configuration: &Configuration,
     raster: &Raster,
 ) -> Option<Summary> {
-    let rays = session.rays.rays();
+    let rays = observations.rays.rays();
     let depth_m = configuration.depth.depth_m();
     let mut on_surface_mm = Vec::new();
     for at in raster.pixels() {

@@ -33,11 +33,11 @@ pub fn masks(recording: &Recording) -> Vec<Mask> {
 
 /// Intersection over union of the posed arm and `masks`, all frames' pixels together.
 pub fn silhouette_iou(outcome: &Outcome, masks: &[Mask], pose: &Transform<Camera, Base>) -> f64 {
-    let session = outcome.session.as_ref().unwrap();
-    let mut raster = Raster::new(&session.camera);
+    let observations = outcome.observations.as_ref().unwrap();
+    let mut raster = Raster::new(&observations.camera);
     let (mut overlap, mut union) = (0, 0);
-    for (configuration, mask) in session.configurations.iter().zip(masks) {
-        raster.draw(&session.camera, &configuration.posture.meshes(&session.arm, pose));
+    for (configuration, mask) in observations.configurations.iter().zip(masks) {
+        raster.draw(&observations.camera, &configuration.posture.meshes(&observations.arm, pose));
         let both = raster.pixels().filter(|at| mask.as_slice()[*at]).count();
         overlap += both;
         union += raster.pixels().count() + mask.count() - both;
@@ -48,17 +48,17 @@ pub fn silhouette_iou(outcome: &Outcome, masks: &[Mask], pose: &Transform<Camera
 /// Median distance (mm) from the posed arm of the points seen at the pixels of `masks`, these
 /// eroded by 7 x 7 pixels, nearer than 2 m.
 pub fn surface_distance(outcome: &Outcome, masks: &[Mask], pose: &Transform<Camera, Base>) -> f64 {
-    let session = outcome.session.as_ref().unwrap();
+    let observations = outcome.observations.as_ref().unwrap();
     let base_from_camera = pose.inverse();
     let mut distances = Vec::new();
-    for (configuration, mask) in session.configurations.iter().zip(masks) {
+    for (configuration, mask) in observations.configurations.iter().zip(masks) {
         let eroded = mask.eroded(3);
         let depth = configuration.depth.depth_m();
         let pixels = eroded.as_slice().iter().enumerate().filter(|(_, set)| **set);
         for (at, _) in pixels.filter(|(at, _)| depth[*at] > 0.0 && depth[*at] < 2.0) {
-            let point = session.rays.point(at, depth[at]);
+            let point = observations.rays.point(at, depth[at]);
             let point = base_from_camera.point(&point.cast()).cast();
-            let nearest = configuration.posture.nearest(&session.arm, &point).unwrap();
+            let nearest = configuration.posture.nearest(&observations.arm, &point).unwrap();
             distances.push(1e3 * f64::from(nearest.distance_m).abs());
         }
     }

@@ -43,7 +43,7 @@ fn the_view_turns_and_all_is_drawn_without_the_network() {
     let base = GOOD.answer.frames.base.as_str();
     let camera = GOOD.answer.frames.camera.as_deref().unwrap();
     assert_eq!(found["names"], json!([base, "x", "y", "z", camera, "x", "y", "z"]));
-    let links = GOOD.outcome.session.as_ref().unwrap().arm.links().len();
+    let links = GOOD.outcome.observations.as_ref().unwrap().arm.links().len();
     let marks = json!({
         "surface-by-configuration": 5,
         "surface-by-link": links,

@@ -129,12 +129,12 @@ fn it_tells_what_became_of_the_frames_without_the_arm() {
 fn names_from_outside_are_text() {
     const EVIL: &str = "</script><img src=x onerror=alert(1)>\"'&<!--";
     let (mut answer, mut outcome) = (GOOD.answer.clone(), GOOD.outcome.clone());
-    let session = outcome.session.as_mut().unwrap();
-    let links = session.arm.links().iter();
+    let observations = outcome.observations.as_mut().unwrap();
+    let links = observations.arm.links().iter();
     let renamed =
         links.map(|link| ArmLink { name: format!("{EVIL}{}", link.name), ..link.clone() });
-    session.arm = ArmModel::new(renamed.collect());
-    session.configurations[0].frames[0] = EVIL.to_owned();
+    observations.arm = ArmModel::new(renamed.collect());
+    observations.configurations[0].frames[0] = EVIL.to_owned();
     outcome.calibration.configurations[0].frames[0] = EVIL.to_owned();
     answer.configurations[0].name = EVIL.to_owned();
     answer.configurations[2].reason = Some(EVIL.to_owned());

@@ -41,7 +41,7 @@ pub fn refused(ran: &Ran, reasons: Vec<Reason>) -> (Answer, Outcome) {
 pub fn without_pose(ran: &Ran, reasons: Vec<Reason>) -> (Answer, Outcome) {
     let (mut answer, mut outcome) = refused(ran, reasons);
     outcome.calibration = Calibration::without_pose(outcome.calibration.verdict.clone());
-    outcome.session = None;
+    outcome.observations = None;
     answer.configurations.clear();
     answer.joint_offsets.clear();
     (answer.camera_from_base, answer.base_from_camera) = (None, None);

@@ -25,12 +25,12 @@ fn numbers(value: &Value) -> Vec<f64> {
 fn each_point_lies_where_its_pixel_saw_it() {
     let (_, rest) = PAGE.split_once("id=\"scene-data\">").unwrap();
     let data: Value = serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap();
-    let session = GOOD.outcome.session.as_ref().unwrap();
+    let observations = GOOD.outcome.observations.as_ref().unwrap();
     let refinement = GOOD.outcome.calibration.refinement.as_ref().unwrap();
     let (low, size) = (numbers(&data["bounds"]["low"]), numbers(&data["bounds"]["size"]));
     let configurations = data["configurations"].as_array().unwrap();
-    assert_eq!(configurations.len(), session.configurations.len());
-    for (seen, configuration) in configurations.iter().zip(&session.configurations) {
+    assert_eq!(configurations.len(), observations.configurations.len());
+    for (seen, configuration) in configurations.iter().zip(&observations.configurations) {
         let bytes = decoded(&seen["points"]);
         let words: Vec<u16> =
             bytes.chunks(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
@@ -42,7 +42,7 @@ fn each_point_lies_where_its_pixel_saw_it() {
         for word in words.chunks(3) {
             let at = |axis: usize| low[axis] + size[axis] * f64::from(word[axis]) / 65535.0;
             let point = refinement.camera_from_base.point(&Point3::new(at(0), at(1), at(2)));
-            let pixel = session.camera.project(&point).unwrap();
+            let pixel = observations.camera.project(&point).unwrap();
             let (u, v) = (pixel.x.round(), pixel.y.round());
             assert!((pixel.x - u).abs() < 0.1 && (pixel.y - v).abs() < 0.1, "{pixel}");
             let seen_m = f64::from(configuration.depth.at(u as u32, v as u32));

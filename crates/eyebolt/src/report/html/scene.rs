@@ -5,17 +5,18 @@
 
 mod cloud;
 mod quantised;
+mod rows;
 mod shape;
 
-use super::evidence::Leftover;
+use super::leftovers::Leftover;
 use crate::answer::Answer;
+use crate::observations::Observations;
 use crate::pipeline::Outcome;
-use crate::session::Session;
-use eyebolt_geometry::{Frame, Transform};
-use eyebolt_registration::Refinement;
+use eyebolt_registration::{Posture, Refinement};
 use nalgebra::{Point2, Point3};
 use quantised::Bounds;
 use rayon::prelude::*;
+use rows::rows;
 use serde::Serialize;
 
 /// What the page draws.
@@ -50,28 +51,30 @@ struct CameraDrawing {
 /// The scene of an outcome; `None` without a pose.
 pub(super) fn scene(answer: &Answer, outcome: &Outcome, leftovers: &[Leftover]) -> Option<Scene> {
     let calibration = &outcome.calibration;
-    let (session, refinement) = (outcome.session.as_ref()?, calibration.refinement.as_ref()?);
+    let (observations, refinement) =
+        (outcome.observations.as_ref()?, calibration.refinement.as_ref()?);
     let base_from_camera = calibration.camera_from_base?.inverse();
     let base_from_image = refinement.camera_from_base.inverse();
-    let clouds = clouds(session, refinement, leftovers);
+    let postures = outcome.postures();
+    let clouds = clouds(observations, &postures, refinement, leftovers);
     let bounds = Bounds::of(clouds.iter().flat_map(|cloud| &cloud.points));
     let dropped = |index: usize| {
         calibration.configurations.get(index).is_some_and(|outcome| outcome.dropped.is_some())
     };
-    let configurations = session.configurations.iter().zip(&clouds).enumerate();
+    let configurations = observations.configurations.iter().zip(&postures).zip(&clouds).enumerate();
     Some(Scene {
         configurations: configurations
-            .map(|(index, (configuration, seen))| {
-                cloud::Cloud::new(configuration, seen, &bounds, dropped(index))
+            .map(|(index, ((configuration, posture), seen))| {
+                cloud::Cloud::new(configuration, posture, seen, &bounds, dropped(index))
             })
             .collect(),
-        links: shape::shapes(&session.arm),
+        links: shape::shapes(&observations.arm),
         bounds,
         target: answer.workspace_in_base_m.unwrap_or_default().map(|m| m as f32),
         camera: CameraDrawing {
             base_from_camera: rows(&base_from_camera),
             base_from_image: rows(&base_from_image),
-            corners: corners(session),
+            corners: corners(observations),
         },
         names: Names {
             base: answer.frames.base.clone(),
@@ -89,24 +92,22 @@ impl Scene {
 }
 
 fn clouds(
-    session: &Session,
+    observations: &Observations,
+    postures: &[Posture],
     refinement: &Refinement,
     leftovers: &[Leftover],
 ) -> Vec<cloud::Points> {
-    let most = cloud::most_points(session.configurations.len());
-    let pairs = session.configurations.par_iter().zip(leftovers);
-    pairs.map(|(c, leftover)| cloud::seen(session, c, refinement, leftover, most)).collect()
-}
-
-/// The upper three rows of the matrix, row by row.
-fn rows<To: Frame, From: Frame>(pose: &Transform<To, From>) -> [f32; 12] {
-    let matrix = pose.matrix();
-    std::array::from_fn(|at| matrix[(at / 4, at % 4)] as f32)
+    let most = cloud::most_points(observations.configurations.len());
+    let work = observations.configurations.par_iter().zip(postures).zip(leftovers);
+    work.map(|((configuration, posture), leftover)| {
+        cloud::seen(observations, configuration, posture, refinement, leftover, most)
+    })
+    .collect()
 }
 
 /// The image's corners; those of an image without a lens where its lens has no ray there.
-fn corners(session: &Session) -> [[f32; 2]; 4] {
-    let camera = &session.camera;
+fn corners(observations: &Observations) -> [[f32; 2]; 4] {
+    let camera = &observations.camera;
     let (right, bottom) = (f64::from(camera.width()) - 0.5, f64::from(camera.height()) - 0.5);
     let corners = [[-0.5, -0.5], [right, -0.5], [right, bottom], [-0.5, bottom]];
     corners.map(|[u, v]| {

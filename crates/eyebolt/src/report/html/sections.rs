@@ -5,21 +5,27 @@ mod drawings;
 pub(super) use drawings::{pictures, plots};
 
 use super::advice::remedies;
-use super::evidence::Leftover;
+use super::leftovers::Leftover;
 use super::spread::Spread;
 use crate::answer::Answer;
 use crate::calibrate::Verdict;
 use crate::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
 use crate::pipeline::Outcome;
 use eyebolt_geometry::{Frame, Transform};
+use eyebolt_registration::OUTLINES;
+use eyebolt_robot::Input;
 use minijinja::{Value, context};
 
-/// Each reason of a refusal with what to do about it.
-pub(super) fn reasons(verdict: &Verdict) -> Vec<Value> {
+/// Each reason of a refusal with what to do about it, inputs called what `call` calls them.
+pub(super) fn reasons(verdict: &Verdict, call: fn(Input) -> String) -> Vec<Value> {
     let Verdict::Refused(reasons) = verdict else { return Vec::new() };
     let told = reasons.iter();
-    told.map(|reason| context! { text => reason.to_string(), remedies => remedies(reason) })
-        .collect()
+    told.map(|reason| {
+        let remedies = remedies(reason).iter().map(|remedy| Input::in_words(remedy, call));
+        let text = Input::in_words(&reason.to_string(), call);
+        context! { text => text, remedies => remedies.collect::<Vec<_>>() }
+    })
+    .collect()
 }
 
 /// Frames and configurations, and how many of them nothing spoke against.
@@ -79,7 +85,7 @@ pub(super) fn configurations(answer: &Answer, leftovers: &[Leftover]) -> Vec<Val
         let first = group.first()?;
         let leftover = leftovers.get(first.configuration);
         let outline = leftover.and_then(|leftover| {
-            Spread::new(leftover.outline_px.iter().map(|px| px.abs())).quantile(0.5)
+            Spread::new(leftover.shown[OUTLINES].iter().map(|(_, px)| px.abs())).quantile(0.5)
         });
         Some(context! {
             name => first.name,

@@ -1,8 +1,9 @@
 //! What the covariance says where the arm works, and what it is made of.
 
 use crate::answer::Answer;
+use crate::calibrate::{Deviation, ErrorPart, ErrorSource};
 use crate::pipeline::Outcome;
-use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 use serde::Serialize;
 
 /// Covariance at the middle of the workspace: how far that point is off (m), and the rotation (rad),
@@ -54,60 +55,41 @@ pub(super) struct Source {
     pub(super) percent: f64,
 }
 
-const SCATTER: [&str; 2] = [
-    "scatter of the residuals",
-    "sandwich covariance of the fit: the residuals of each link in each view may all be off together",
-];
-const JACKKNIFE: [&str; 2] = [
-    "dependence on single configurations",
-    "jackknife: the fit is repeated without each configuration in turn",
-];
-const JACKKNIFE_AND_ALLOWANCE: [&str; 2] = [
-    "dependence on single configurations, one kind of evidence",
-    "jackknife, and an allowance for what outlines would have told: none was seen",
-];
-const DISAGREEMENT: [&str; 2] = [
-    "surfaces against outlines",
-    "half of the difference between what either would say alone: what is wrong in every view alike",
-];
+/// What a source of the expected error is called, and how it is found.
+fn words(source: ErrorSource) -> [&'static str; 2] {
+    match source {
+        ErrorSource::Scatter => [
+            "scatter of the residuals",
+            "sandwich covariance of the fit: the residuals of each link in each view may all be off \
+             together",
+        ],
+        ErrorSource::LeftOut => [
+            "dependence on single configurations",
+            "jackknife: the fit is repeated without each configuration in turn",
+        ],
+        ErrorSource::Disagreement => [
+            "disagreement of the kinds of evidence",
+            "spread of what surfaces and outlines would say alone: what is wrong in every view alike",
+        ],
+        ErrorSource::OneKind => [
+            "one kind of evidence",
+            "an allowance for what outlines would have told: none was seen",
+        ],
+    }
+}
 
 /// What the expected error is made of; empty if there is none.
-pub(super) fn sources(answer: &Answer, outcome: &Outcome) -> Vec<Source> {
-    let calibration = &outcome.calibration;
-    let (Some(total), Some(refinement), Some(workspace)) =
-        (answer.expected_error, &calibration.refinement, answer.workspace_in_base_m)
-    else {
-        return Vec::new();
-    };
-    let arm = refinement.camera_from_base.direction(&Vector3::from(workspace));
-    let scatter = rms(&(moved_to(&arm) * refinement.covariance * moved_to(&arm).transpose()));
-    let disagreement = answer
-        .disagreement
-        .map(|whole| [whole.translation_mm, whole.rotation_deg].map(|v| 0.5 * v));
-    let total = [total.translation_mm, total.rotation_deg];
-    let known = [Some(scatter), disagreement];
-    let rest = [0, 1].map(|kind| {
-        let others = known.iter().flatten().map(|part| part[kind] * part[kind]).sum::<f64>();
-        (total[kind] * total[kind] - others).max(0.0).sqrt()
-    });
-    let left_out = if disagreement.is_some() { JACKKNIFE } else { JACKKNIFE_AND_ALLOWANCE };
-    let parts = [(SCATTER, Some(scatter)), (left_out, Some(rest)), (DISAGREEMENT, disagreement)];
-    let source = |([name, how], part): ([&'static str; 2], Option<[f64; 2]>)| {
-        let [translation_mm, rotation_deg] = part?;
-        let percent = 100.0 * (translation_mm / total[0]).powi(2);
+pub(super) fn sources(outcome: &Outcome) -> Vec<Source> {
+    let Some(error) = &outcome.calibration.error else { return Vec::new() };
+    let source = |part: &ErrorPart| {
+        let [name, how] = words(part.source);
+        let Deviation { translation_m, rotation_rad } = part.expected;
+        let percent = 100.0 * (translation_m / error.expected.translation_m).powi(2);
+        let (translation_mm, rotation_deg) = (1e3 * translation_m, rotation_rad.to_degrees());
         let finite = translation_mm.is_finite() && rotation_deg.is_finite() && percent.is_finite();
         finite.then_some(Source { name, how, translation_mm, rotation_deg, percent })
     };
-    parts.into_iter().filter_map(source).collect()
-}
-
-/// Root mean square errors of a covariance: millimetres and degrees.
-fn rms(covariance: &Matrix6<f64>) -> [f64; 2] {
-    let trace = |from: usize| {
-        let block: Matrix3<f64> = covariance.fixed_view::<3, 3>(from, from).into_owned();
-        block.trace().max(0.0).sqrt()
-    };
-    [1e3 * trace(0), trace(3).to_degrees()]
+    error.parts.iter().filter_map(source).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Correlations as shades.
 
-use super::WIDTH;
+use super::layout::WIDTH;
 use crate::report::html::svg::{Anchor, Svg, signed};
 use nalgebra::Matrix6;
 

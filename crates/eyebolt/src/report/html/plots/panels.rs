@@ -1,6 +1,6 @@
 //! Translations beside rotations, one row for each.
 
-use super::{ROW, WIDTH, gutter, short};
+use super::layout::{ROW, WIDTH, gutter, short};
 use crate::report::html::svg::{Anchor, Axis, Svg};
 
 /// One of the two columns.

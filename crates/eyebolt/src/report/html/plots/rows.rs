@@ -1,6 +1,6 @@
 //! Distributions one below the other.
 
-use super::{ROW, WIDTH, gutter, short};
+use super::layout::{ROW, WIDTH, gutter, short};
 use crate::report::html::spread::Spread;
 use crate::report::html::svg::{Anchor, Axis, Svg, signed};
 

@@ -1,11 +1,11 @@
 //! What the camera saw in one configuration, thinned.
 
 use super::quantised::Bounds;
-use super::rows;
+use super::rows::rows;
+use crate::observations::{Configuration, Observations};
 use crate::report::html::base64;
-use crate::report::html::evidence::Leftover;
-use crate::session::{Configuration, Session};
-use eyebolt_registration::{Label, Refinement};
+use crate::report::html::leftovers::Leftover;
+use eyebolt_registration::{Label, Posture, Refinement};
 use nalgebra::Point3;
 use serde::Serialize;
 
@@ -51,6 +51,7 @@ pub(super) struct Cloud {
 impl Cloud {
     pub(super) fn new(
         configuration: &Configuration,
+        posture: &Posture,
         seen: &Points,
         bounds: &Bounds,
         dropped: bool,
@@ -63,7 +64,7 @@ impl Cloud {
             points: bounds.encode(&seen.points),
             labels: base64::encode(&seen.labels),
             behind_mm: base64::encode(&behind_mm),
-            links: configuration.posture.base_from_link().iter().map(rows).collect(),
+            links: posture.base_from_link().iter().map(rows).collect(),
         }
     }
 }
@@ -72,8 +73,9 @@ impl Cloud {
 ///
 /// Depth is scaled by what fits best, as in the refinement.
 pub(super) fn seen(
-    session: &Session,
+    observations: &Observations,
     configuration: &Configuration,
+    posture: &Posture,
     refinement: &Refinement,
     leftover: &Leftover,
     most: usize,
@@ -82,11 +84,11 @@ pub(super) fn seen(
     let base_from_camera = refinement.camera_from_base.inverse();
     let pose = base_from_camera.isometry().cast::<f32>();
     let farthest_m = (FARTHEST * base_from_camera.translation_m().norm()).max(1.0) as f32;
-    let scale = (1.0 + refinement.depth_scale) as f32;
+    let scale = (1.0 + refinement.depth_scale()) as f32;
     let (width, height) = (configuration.depth.width(), configuration.depth.height());
-    let on_arm = labels.count(Label::Arm);
+    let on_arm = labels.count(Label::Arm) + labels.count(Label::EndEffector);
     let strides = strides(on_arm, (width * height) as usize, most);
-    let mut seen = Points::default();
+    let (mut seen, mut last) = (Points::default(), 0);
     for v in 0..height as usize {
         for u in 0..width as usize {
             let label = labels.at(u, v).unwrap_or(Label::Background);
@@ -95,12 +97,13 @@ pub(super) fn seen(
             if !(u.is_multiple_of(stride) && v.is_multiple_of(stride) && z > 0.0) {
                 continue;
             }
-            let point = pose * session.rays.point(v * width as usize + u, z);
+            let point = pose * observations.rays.point(v * width as usize + u, z);
             let away_m = point.coords.norm();
             if away_m.is_nan() || away_m > farthest_m {
                 continue;
             }
-            let nearest = configuration.posture.nearest_within(&session.arm, &point, NEAR_M);
+            let nearest = posture.nearest_within(&observations.arm, &point, NEAR_M, last);
+            last = nearest.map_or(last, |nearest| nearest.link);
             seen.points.push(point);
             seen.labels.push(code(label));
             seen.behind_mm.push(nearest.map_or(i8::MIN, |n| millimetres(-n.distance_m)));
@@ -126,7 +129,7 @@ fn strides(on_arm: usize, pixels: usize, most: usize) -> Strides {
 fn code(label: Label) -> u8 {
     match label {
         Label::Background => 0,
-        Label::Arm => 1,
+        Label::Arm | Label::EndEffector => 1,
         Label::Ignore => 2,
     }
 }

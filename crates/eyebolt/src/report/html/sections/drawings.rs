@@ -1,30 +1,26 @@
 //! Plots and pictures for the page.
 
 use crate::answer::Answer;
-use crate::calibrate::ConfigurationOutcome;
 use crate::pipeline::Outcome;
-use crate::report::html::evidence::Leftover;
+use crate::refine::ConfigurationOutcome;
+use crate::report::html::leftovers::Leftover;
 use crate::report::html::plots::{Panel, Row, matrix, panels, rows};
 use crate::report::html::spread::Spread;
 use crate::report::html::{pictures as scaled, uncertainty};
 use crate::report::picture::Picture;
+use eyebolt_registration::{Presentation, presentation};
 use minijinja::{Value, context};
 
-/// Where axes end at the latest: beyond, points are not of the arm any more.
-const FARTHEST_MM: f32 = 50.0;
-const FARTHEST_PX: f32 = 12.0;
+/// Axes end at the latest at so many standard deviations: beyond, residuals are not of the arm.
+const FARTHEST_DEVIATIONS: f64 = 12.0;
 
 /// Each plot as SVG, `None` where there is nothing to show.
 pub(in super::super) fn plots(answer: &Answer, outcome: &Outcome, leftovers: &[Leftover]) -> Value {
-    let outcomes = &outcome.calibration.configurations;
-    let seen = !leftovers.is_empty();
-    let outlines = leftovers.iter().any(|leftover| !leftover.outline_px.is_empty());
     let covariance = uncertainty::at_workspace(answer);
+    let kinds = presentation().into_iter().enumerate();
+    let residuals = kinds.filter_map(|(kind, shown)| residuals(kind, shown, outcome, leftovers));
     context! {
-        surface_by_configuration => seen.then(|| safe(surface_by_configuration(outcomes, leftovers))),
-        surface_by_link => seen.then(|| safe(surface_by_link(outcome, leftovers))),
-        outline_by_configuration =>
-            outlines.then(|| safe(outline_by_configuration(outcomes, leftovers))),
+        residuals => residuals.collect::<Vec<_>>(),
         leave_one_out => leave_one_out(answer, outcome).map(safe),
         deviations => covariance.as_ref().map(|c| safe(deviations(c))),
         correlations => covariance.as_ref().map(|c| {
@@ -42,39 +38,44 @@ fn name(outcome: &ConfigurationOutcome) -> String {
     outcome.frames.first().cloned().unwrap_or_default()
 }
 
-fn surface_by_configuration(outcomes: &[ConfigurationOutcome], leftovers: &[Leftover]) -> String {
-    let each = outcomes.iter().zip(leftovers).map(|(outcome, leftover)| Row {
+/// What one kind of evidence leaves over, by configuration and by link; `None` if it was not seen.
+fn residuals(
+    kind: usize,
+    shown: Presentation,
+    outcome: &Outcome,
+    leftovers: &[Leftover],
+) -> Option<Value> {
+    let seen = leftovers.iter().any(|leftover| !leftover.shown[kind].is_empty());
+    let refinement = outcome.calibration.refinement.as_ref().filter(|_| seen)?;
+    let deviation = refinement.deviations[kind] * shown.factor.abs();
+    let farthest = (FARTHEST_DEVIATIONS * deviation) as f32;
+    let outcomes = &outcome.calibration.configurations;
+    let by_configuration = outcomes.iter().zip(leftovers).map(|(outcome, leftover)| Row {
         label: name(outcome),
-        spread: Spread::new(leftover.surface_mm.iter().map(|(_, mm)| *mm)),
+        spread: Spread::new(leftover.shown[kind].iter().map(|(_, value)| *value)),
         muted: outcome.dropped.is_some(),
     });
-    let label = "mm behind the model's surface";
-    rows("surface-by-configuration", label, "mm", &each.collect::<Vec<_>>(), FARTHEST_MM)
-}
-
-fn surface_by_link(outcome: &Outcome, leftovers: &[Leftover]) -> String {
-    let links = outcome.session.iter().flat_map(|session| session.arm.links());
     let used = || {
-        let pairs = outcome.calibration.configurations.iter().zip(leftovers);
-        pairs.filter(|(outcome, _)| outcome.dropped.is_none()).flat_map(|(_, l)| &l.surface_mm)
+        let used = outcomes.iter().zip(leftovers).filter(|(outcome, _)| outcome.dropped.is_none());
+        used.flat_map(|(_, leftover)| &leftover.shown[kind])
     };
-    let each = links.enumerate().map(|(index, link)| Row {
+    let links = outcome.observations.iter().flat_map(|observations| observations.arm.links());
+    let by_link = links.enumerate().map(|(index, link)| Row {
         label: link.name.clone(),
-        spread: Spread::new(used().filter(|(of, _)| *of == index).map(|(_, mm)| *mm)),
+        spread: Spread::new(used().filter(|(of, _)| *of == index).map(|(_, value)| *value)),
         muted: false,
     });
-    let label = "mm behind the model's surface";
-    rows("surface-by-link", label, "mm", &each.collect::<Vec<_>>(), FARTHEST_MM)
-}
-
-fn outline_by_configuration(outcomes: &[ConfigurationOutcome], leftovers: &[Leftover]) -> String {
-    let each = outcomes.iter().zip(leftovers).map(|(outcome, leftover)| Row {
-        label: name(outcome),
-        spread: Spread::new(leftover.outline_px.iter().copied()),
-        muted: outcome.dropped.is_some(),
-    });
-    let label = "pixels outside the outline seen";
-    rows("outline-by-configuration", label, "px", &each.collect::<Vec<_>>(), FARTHEST_PX)
+    let label = format!("{}, {}", shown.unit, shown.positive);
+    let draw = |by: &str, each: Vec<Row>| {
+        let id = format!("{}-by-{by}", shown.name);
+        safe(rows(&id, &label, shown.unit, &each, farthest))
+    };
+    Some(context! {
+        name => shown.name,
+        positive => shown.positive,
+        by_configuration => draw("configuration", by_configuration.collect()),
+        by_link => draw("link", by_link.collect()),
+    })
 }
 
 fn leave_one_out(answer: &Answer, outcome: &Outcome) -> Option<String> {

@@ -1,0 +1,19 @@
+//! A simulated recording, written.
+
+use crate::output;
+use crate::progress::Counting;
+use anyhow::Result;
+use eyebolt::simulate::{Plan, SimulateError};
+use std::io::BufWriter;
+use std::path::Path;
+
+/// Writes the recording of `plan` to `path`, whole or not at all.
+pub fn record(plan: &Plan<'_>, path: &Path, force: bool) -> Result<()> {
+    let bar = Counting::new()?;
+    output::write_through(path, force, |file| {
+        plan.record(BufWriter::new(file), &bar).map_err(|error| match error {
+            SimulateError::Write(error) => output::named(error, path),
+            other => other.into(),
+        })
+    })
+}

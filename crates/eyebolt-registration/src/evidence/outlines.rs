@@ -1,0 +1,90 @@
+//! Distances in the image of the posed arm's contour from the outline seen: ARCHITECTURE.md, (4).
+//!
+//! The nuisance parameter is the width, in pixels, by which the outline seen is too wide.
+
+use super::kind::{EvidenceKind, Factor, Presentation, Reach};
+use super::posed::{PosedArm, PosedView, moved_by_base};
+use crate::silhouette::Silhouette;
+use crate::unknowns::{FIRST_NUISANCE, OUTLINES, Unknowns};
+use eyebolt_geometry::PinholeCamera;
+use eyebolt_render::{ContourPoint, outer_contour};
+
+/// Contour points looked at in a view.
+const CONTOUR_POINTS: usize = 1500;
+
+/// Residuals in pixels.
+pub(crate) struct Outlines;
+
+impl EvidenceKind for Outlines {
+    fn presentation(&self) -> Presentation {
+        Presentation {
+            name: "outlines",
+            unit: "px",
+            factor: 1.0,
+            positive: "the posed contour is outside the outline seen",
+        }
+    }
+
+    fn first_scale(&self, reach: Reach) -> f64 {
+        match reach {
+            Reach::Far => 20.0,
+            Reach::Near => 8.0,
+            Reach::Close => 4.0,
+        }
+    }
+
+    /// Labels and drawings are of whole pixels.
+    fn least_deviation(&self) -> f64 {
+        0.7
+    }
+
+    /// Pixels over which errors of an outline are correlated: a matching window's half.
+    fn correlated_samples(&self) -> f64 {
+        8.0
+    }
+
+    /// Edges of depth are off by a pixel on either side.
+    fn nuisance_deviation(&self) -> f64 {
+        1.0
+    }
+
+    fn gather(&self, view: &PosedView<'_>, factors: &mut Vec<Factor>) -> f64 {
+        let contour = outer_contour(view.raster, view.camera);
+        let stride = contour.len().div_ceil(CONTOUR_POINTS).max(1);
+        let looked_at = contour.iter().step_by(stride);
+        factors.extend(
+            looked_at.filter_map(|point| {
+                outline_factor(&view.posed, view.camera, view.silhouette, point)
+            }),
+        );
+        stride as f64
+    }
+}
+
+/// Distance in the image of a point of the posed arm's contour from the outline seen.
+///
+/// `None` where no outline is known nearby, or where the nearest one is another edge.
+pub(super) fn outline_factor(
+    posed: &PosedArm<'_>,
+    camera: &PinholeCamera,
+    silhouette: &Silhouette,
+    contour: &ContourPoint,
+) -> Option<Factor> {
+    let (distance, gradient) = silhouette.sample(&contour.pixel)?;
+    if gradient.dot(&contour.outward) < 0.5 {
+        return None;
+    }
+    let point = contour.point_in_camera.cast::<f64>();
+    let (_, by_point) = camera.project_with_jacobian(&point)?;
+    let along = by_point.tr_mul(&gradient.cast::<f64>());
+    let pose = posed.state.camera_from_base.isometry();
+    let origin = pose.translation.vector;
+    let mut jacobian = Unknowns::zeros();
+    jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&moved_by_base(&along, &point.coords, &origin));
+    jacobian[FIRST_NUISANCE + OUTLINES] = 1.0;
+    let link = contour.link as usize;
+    let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
+    posed.by_joints(link, &along, &at, &mut jacobian);
+    let residual = f64::from(distance) + posed.state.nuisances[OUTLINES];
+    Some(Factor { residual, jacobian, link })
+}

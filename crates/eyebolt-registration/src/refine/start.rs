@@ -1,0 +1,73 @@
+//! Where a refinement begins, and how it goes about it.
+
+use crate::arm::{JointOffsets, MOST_JOINTS};
+use crate::evidence::Reach;
+use crate::silhouette::Silhouette;
+use crate::view::View;
+use eyebolt_geometry::{Base, Camera, Transform};
+use nalgebra::Point3;
+
+/// One configuration in the refinement.
+#[derive(Clone, Debug)]
+pub struct RefineView<'a> {
+    /// What was seen, and the arm's configuration.
+    pub view: View<'a>,
+    /// Points well inside the arm's outline: camera frame, metres.
+    pub arm_points: Vec<Point3<f32>>,
+    /// How many pixels each of them stands for.
+    pub pixels_per_point: f64,
+    /// The arm's outline, where it is known.
+    pub silhouette: Silhouette,
+}
+
+/// How to refine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RefineOptions {
+    /// Steps at most.
+    pub iterations: usize,
+    /// How far off the start may be: the robust kernels begin as wide as that takes.
+    pub reach: Reach,
+    /// Which kinds of evidence count.
+    pub trust: Trust,
+    /// How far off joints may be.
+    pub joint_prior: JointPrior,
+}
+
+/// Which kinds of evidence count: all as much as their residuals deserve, or all but one hardly at
+/// all, to see whether the kinds agree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// All of them.
+    All,
+    /// That of this place among the kinds.
+    Only(usize),
+}
+
+/// What is known beforehand of how far off joints are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointPrior {
+    /// Each by this standard deviation.
+    Known {
+        /// The deviations, radians.
+        rad: [f64; MOST_JOINTS],
+    },
+    /// All by the same deviation, which the data tell, but for joints that stand out (empirical
+    /// Bayes).
+    Estimated,
+}
+
+/// Where a refinement begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// The pose.
+    pub camera_from_base: Transform<Camera, Base>,
+    /// How much farther the joints stand than they say.
+    pub joint_offsets: JointOffsets,
+}
+
+impl From<Transform<Camera, Base>> for Start {
+    /// At a pose, with every joint where it says.
+    fn from(camera_from_base: Transform<Camera, Base>) -> Self {
+        Self { camera_from_base, joint_offsets: JointOffsets::default() }
+    }
+}

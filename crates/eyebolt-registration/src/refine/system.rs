@@ -1,0 +1,145 @@
+//! The linearised problem of one step: ARCHITECTURE.md, (5) to (7).
+//!
+//! Factors are summed once, for each view, link and kind of evidence apart. All that is asked of
+//! them later - the step, priors of other widths, scores of clusters, the problem without a view -
+//! follows from these sums.
+
+use super::clusters::Cluster;
+use super::gather::ViewFactors;
+use super::start::Trust;
+use crate::evidence::KINDS;
+use crate::normal_equations::NormalEquations;
+use crate::robust::{geman_mcclure, geman_mcclure_curvature};
+use crate::unknowns::{EVIDENCE_KINDS, UNKNOWNS};
+use rayon::prelude::*;
+
+/// Normal equations of all unknowns.
+pub(super) type Sum = NormalEquations<UNKNOWNS>;
+
+/// What remains of a kind of evidence that is not trusted: enough to determine the pose.
+const DISTRUSTED: f64 = 0.01;
+
+/// What a residual's square counts in the matrix of the problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Matrix {
+    /// Its robust weight: steps that always descend (iteratively reweighted least squares).
+    Reweighted,
+    /// The second derivative of its robust loss, which also sees that weights change with the
+    /// residual (Newton).
+    Curvature,
+}
+
+/// How residuals are weighed in one step, by kind of evidence.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights {
+    /// Scales of the robust kernels.
+    pub scales: [f64; EVIDENCE_KINDS],
+    /// Standard deviations of the residuals.
+    pub deviations: [f64; EVIDENCE_KINDS],
+    pub trust: Trust,
+}
+
+/// Sums of all factors, without priors.
+pub(super) struct System<'a> {
+    clusters: &'a [Vec<Cluster>],
+    /// By view, link and kind; those of one cluster add up to the weight of one view.
+    sums: Vec<Vec<[Sum; EVIDENCE_KINDS]>>,
+}
+
+impl<'a> System<'a> {
+    /// Sums the factors of each view.
+    pub fn new(
+        gathered: &[ViewFactors],
+        clusters: &'a [Vec<Cluster>],
+        weights: &Weights,
+        matrix: Matrix,
+    ) -> Self {
+        let views = gathered.par_iter().zip(clusters);
+        let sums = views.map(|(view, clusters)| {
+            let mut sums = vec![<[Sum; EVIDENCE_KINDS]>::default(); clusters.len()];
+            for kind in 0..EVIDENCE_KINDS {
+                add_kind(view, kind, weights, matrix, &mut sums);
+            }
+            for (link, cluster) in sums.iter_mut().zip(clusters) {
+                let share = (cluster.views as f64).recip();
+                link.iter_mut().for_each(|sum| sum.scale(share));
+            }
+            sums
+        });
+        Self { clusters, sums: sums.collect() }
+    }
+
+    /// The sum of all views, in their order.
+    pub fn total(&self) -> Sum {
+        let mut total = Sum::default();
+        for sum in self.sums.iter().flatten().flatten() {
+            total.add_all(sum);
+        }
+        total
+    }
+
+    /// The sum of all views but one; the rest of a cluster then counts as much as the whole did.
+    pub fn total_without(&self, left_out: usize, total: &Sum) -> Sum {
+        let mut rest = total.clone();
+        for (link, cluster) in self.clusters[left_out].iter().enumerate() {
+            for sum in &self.sums[left_out][link] {
+                rest.subtract_all(sum);
+            }
+            if cluster.views < 2 {
+                continue;
+            }
+            // One of `n` views left out: the others count `n / (n - 1)` times as much.
+            let more = ((cluster.views - 1) as f64).recip();
+            for (view, clusters) in self.clusters.iter().enumerate() {
+                if view != left_out && clusters[link].number == cluster.number {
+                    for sum in &self.sums[view][link] {
+                        rest.add_scaled(sum, more);
+                    }
+                }
+            }
+        }
+        rest
+    }
+
+    /// The sums of each cluster and kind of evidence.
+    pub fn by_cluster(&self) -> Vec<Sum> {
+        let numbers = self.clusters.iter().flatten().map(|cluster| cluster.number + 1);
+        let mut found = vec![Sum::default(); EVIDENCE_KINDS * numbers.max().unwrap_or(0)];
+        for (clusters, sums) in self.clusters.iter().zip(&self.sums) {
+            for (cluster, sums) in clusters.iter().zip(sums) {
+                for (kind, sum) in sums.iter().enumerate() {
+                    found[EVIDENCE_KINDS * cluster.number + kind].add_all(sum);
+                }
+            }
+        }
+        found
+    }
+}
+
+fn add_kind(
+    view: &ViewFactors,
+    kind: usize,
+    weights: &Weights,
+    matrix: Matrix,
+    sums: &mut [[Sum; EVIDENCE_KINDS]],
+) {
+    let trusted = match weights.trust {
+        Trust::Only(other) if other != kind => DISTRUSTED,
+        _ => 1.0,
+    };
+    // Correlated samples count as one.
+    let independent = (view.samples[kind] / KINDS[kind].correlated_samples()).min(1.0);
+    let all = trusted * independent / weights.deviations[kind].powi(2);
+    let scale = weights.scales[kind];
+    for factor in &view.factors[kind] {
+        let weight = all * geman_mcclure(factor.residual, scale);
+        let sum = &mut sums[factor.link][kind];
+        match matrix {
+            Matrix::Reweighted => sum.add(&factor.jacobian, factor.residual, weight),
+            Matrix::Curvature => {
+                let curvature = all * geman_mcclure_curvature(factor.residual, scale);
+                sum.add_curved(&factor.jacobian, factor.residual, weight, curvature);
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! A calibration, trusted or not.
+
+use super::error::ErrorEstimate;
+use super::reason::Verdict;
+use crate::refine::{Agreement, ConfigurationOutcome, total};
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_registration::Refinement;
+
+/// A calibration, trusted or not.
+#[derive(Clone, Debug)]
+pub struct Calibration {
+    /// The answer, for the depth optical frame; `None` if nothing was found at all.
+    pub camera_from_base: Option<Transform<Camera, Base>>,
+    /// What the last refinement says, in the observations's own camera frame.
+    pub refinement: Option<Refinement>,
+    /// One for each configuration of the observations.
+    pub configurations: Vec<ConfigurationOutcome>,
+    /// How far off the answer is expected to be.
+    pub error: Option<ErrorEstimate>,
+    /// Whether to use it.
+    pub verdict: Verdict,
+}
+
+impl Calibration {
+    /// No answer, and why.
+    pub fn without_pose(verdict: Verdict) -> Self {
+        let configurations = Vec::new();
+        Self { camera_from_base: None, refinement: None, configurations, error: None, verdict }
+    }
+
+    /// How all pixels of the configurations used agree with the answer.
+    pub fn agreement(&self) -> Option<Agreement> {
+        let views: Vec<_> = self.configurations.iter().filter_map(|c| c.agreement).collect();
+        (!views.is_empty()).then(|| total(&views))
+    }
+}

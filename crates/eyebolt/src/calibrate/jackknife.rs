@@ -1,0 +1,81 @@
+//! What an answer depends on: it is found again without each configuration in turn.
+
+use crate::refine::{Workspace, again};
+use eyebolt_registration::{JointPrior, RefineOptions, RefineView, Refinement, Start};
+use nalgebra::{SMatrix, SVector};
+
+/// How the answers without single configurations are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Jackknife {
+    /// By one Newton step each from the full answer: linear in the number of configurations.
+    #[default]
+    OneStep,
+    /// By refining on from the full answer on the rest, to measure the other way by: quadratic.
+    Exact,
+}
+
+/// Steps of an exact one: enough to settle.
+const STEPS: usize = 6;
+
+/// The answers without each of the views in turn; `None` with fewer than three, or where the rest
+/// does not determine the pose.
+pub(super) fn left_out(
+    work: &mut Workspace<'_, '_>,
+    seen: &[RefineView<'_>],
+    refinement: &Refinement,
+    how: Jackknife,
+) -> Option<Vec<Start>> {
+    if seen.len() < 3 {
+        return None;
+    }
+    match how {
+        Jackknife::OneStep if refinement.left_out.len() == seen.len() => {
+            Some(refinement.left_out.clone())
+        }
+        _ => Some((0..seen.len()).map(|index| without(work, seen, refinement, index)).collect()),
+    }
+}
+
+fn without(
+    work: &mut Workspace<'_, '_>,
+    seen: &[RefineView<'_>],
+    refinement: &Refinement,
+    left_out: usize,
+) -> Start {
+    let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
+    let options = RefineOptions { joint_prior, ..again(STEPS) };
+    let kept = seen.iter().enumerate().filter(|(index, _)| *index != left_out);
+    let kept: Vec<RefineView<'_>> = kept.map(|(_, view)| view.clone()).collect();
+    let (arm, rasters) = (&work.observations.arm, &mut work.rasters[..kept.len()]);
+    eyebolt_registration::refine(arm, &kept, rasters, &refinement.end(), &options).end()
+}
+
+/// Jackknife covariance (Efron and Stein, Annals of Statistics 1981) of an answer from `deltas`, what
+/// it changes by with each part left out.
+pub(super) fn jackknife<const N: usize>(deltas: &[SVector<f64, N>]) -> SMatrix<f64, N, N> {
+    let count = deltas.len() as f64;
+    let mean = deltas.iter().sum::<SVector<f64, N>>() / count;
+    let scatter = deltas.iter().map(|d| (d - mean) * (d - mean).transpose());
+    scatter.sum::<SMatrix<f64, N, N>>() * ((count - 1.0) / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Of a mean, the jackknife is its standard error squared, exactly.
+        #[test]
+        fn of_a_mean_it_is_the_variance_of_the_mean(
+            values in proptest::collection::vec(-3.0..3.0_f64, 3..20),
+        ) {
+            let count = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / count;
+            let without = |left_out: &f64| (count * mean - left_out) / (count - 1.0) - mean;
+            let deltas: Vec<_> = values.iter().map(|v| SVector::<f64, 1>::new(without(v))).collect();
+            let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0);
+            prop_assert!((jackknife(&deltas)[0] - variance / count).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! What an answer has to meet to be trusted.
+
+use super::deviation::Deviation;
+
+/// What an answer has to meet to be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Distinct arm configurations at least.
+    pub configurations: usize,
+    /// Expected error at most.
+    pub expected: Deviation,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        let expected = Deviation { translation_m: 0.020, rotation_rad: 1.2f64.to_radians() };
+        Self { configurations: 3, expected }
+    }
+}

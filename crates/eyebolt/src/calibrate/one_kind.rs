@@ -1,0 +1,53 @@
+//! What each kind of evidence would say alone: what is wrong in every frame alike shows where they
+//! disagree.
+
+use crate::refine::{Workspace, again};
+use eyebolt_registration::{
+    EVIDENCE_KINDS, JointPrior, RefineOptions, RefineView, Refinement, Start, Trust,
+};
+use nalgebra::{SMatrix, SVector};
+
+/// Steps from the answer of all kinds to that of one.
+const STEPS: usize = 8;
+
+/// What each kind of evidence that was seen makes of `refinement` alone, with joints as likely to
+/// be off; `None` if there are not two.
+pub(super) fn one_kind_each(
+    work: &mut Workspace<'_, '_>,
+    seen: &[RefineView<'_>],
+    refinement: &Refinement,
+) -> Option<Vec<Start>> {
+    let was_seen = |kind: &usize| refinement.views.iter().any(|v| v.fits[*kind].median.is_some());
+    let kinds: Vec<usize> = (0..EVIDENCE_KINDS).filter(was_seen).collect();
+    if kinds.len() < 2 {
+        return None;
+    }
+    let alone = |kind: &usize| {
+        let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
+        let options = RefineOptions { trust: Trust::Only(*kind), joint_prior, ..again(STEPS) };
+        let (arm, rasters) = (&work.observations.arm, &mut work.rasters);
+        eyebolt_registration::refine(arm, seen, rasters, &refinement.end(), &options).end()
+    };
+    Some(kinds.iter().map(alone).collect())
+}
+
+/// Mean square of `deltas` about their mean: of two, half of their difference squared.
+pub(super) fn spread<const N: usize>(deltas: &[SVector<f64, N>]) -> SMatrix<f64, N, N> {
+    let count = deltas.len() as f64;
+    let mean = deltas.iter().sum::<SVector<f64, N>>() / count;
+    let squares = deltas.iter().map(|d| (d - mean) * (d - mean).transpose());
+    squares.sum::<SMatrix<f64, N, N>>() / count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector2;
+
+    #[test]
+    fn of_two_it_is_half_of_their_difference() {
+        let (a, b) = (Vector2::new(1.0, -2.0), Vector2::new(0.5, 3.0));
+        let half = 0.5 * (a - b);
+        assert!((spread(&[a, b]) - half * half.transpose()).amax() < 1e-12);
+    }
+}

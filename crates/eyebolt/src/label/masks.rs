@@ -1,0 +1,26 @@
+//! The arm as the recording's masks have it.
+
+use super::labeller::Labeller;
+use crate::observations::{Configuration, Observations};
+use eyebolt_registration::{Label, Labels};
+use rayon::prelude::*;
+
+/// Takes the masks of the recording; a configuration without one is ignored whole.
+#[derive(Clone, Copy, Debug)]
+pub struct GivenMasks;
+
+impl Labeller for GivenMasks {
+    fn label(&self, observations: &Observations) -> Vec<Labels> {
+        let one = |configuration: &Configuration| {
+            let (width, height) = (configuration.depth.width(), configuration.depth.height());
+            Labels::from_fn(0..width as usize, 0..height as usize, |u, v| {
+                match &configuration.mask {
+                    None => Label::Ignore,
+                    Some(mask) if mask.at(u as u32, v as u32) => Label::Arm,
+                    Some(_) => Label::Background,
+                }
+            })
+        };
+        observations.configurations.par_iter().map(one).collect()
+    }
+}

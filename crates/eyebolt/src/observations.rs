@@ -1,0 +1,124 @@
+//! What a calibration works on: arm configurations as one camera saw them.
+
+use crate::joint_limits::OutsideLimits;
+use eyebolt_geometry::{
+    Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
+};
+use eyebolt_registration::{ArmModel, JointOffsets, Posture, View};
+
+/// Arm configurations, the camera that saw them and the arm.
+#[derive(Clone, Debug)]
+pub struct Observations {
+    /// The camera that the depth images are of.
+    pub camera: PinholeCamera,
+    /// Its rays.
+    pub rays: RayTable,
+    /// Turns from the frame of `camera` to the optical frame that answers are for. Only clouds that
+    /// came without a camera make these two differ.
+    pub optical_from_camera: Transform<Camera, Camera>,
+    /// Where the depth images come from.
+    pub source: ImageSource,
+    /// Shapes of the arm's links.
+    pub arm: ArmModel,
+    /// The configurations, in the order of the recording.
+    pub configurations: Vec<Configuration>,
+    /// The scene without the arm.
+    pub background: Background,
+    /// Joints of the hand that the recording does not have, and that were put at their lower limit.
+    pub assumed_joints: Vec<String>,
+    /// Joints of the arm that were recorded outside their limits, each where it is farthest out.
+    pub outside_limits: Vec<OutsideLimits>,
+    /// How many more configurations the recording has, much like those that are used.
+    pub spare_configurations: usize,
+}
+
+/// What is known of the scene without the arm.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Background {
+    /// The recording has no frames of it.
+    #[default]
+    None,
+    /// Its depth, of the camera's size.
+    Seen(DepthImage),
+    /// The recording's background shows another scene, or this one from another place: it was not
+    /// used.
+    OfAnotherScene,
+}
+
+impl Background {
+    /// Its depth, if it is known.
+    pub fn depth(&self) -> Option<&DepthImage> {
+        match self {
+            Self::Seen(depth) => Some(depth),
+            Self::None | Self::OfAnotherScene => None,
+        }
+    }
+}
+
+/// Where the depth images of a observations come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ImageSource {
+    /// The recording has depth images and their camera.
+    DepthImages,
+    /// Organised clouds without a camera, whose grid tells it to this accuracy.
+    OrganisedClouds {
+        /// Root mean square distance of the points from their pixels.
+        residual_px: f64,
+    },
+    /// Clouds, drawn as the recording's camera sees them.
+    ProjectedClouds,
+    /// Clouds without a camera or a grid that tells one, drawn as a camera made up for them sees
+    /// them.
+    DrawnClouds,
+}
+
+/// One arm configuration, of one frame or several merged.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    /// Names of its frames in the recording; at least one.
+    pub frames: Vec<String>,
+    /// What the camera saw.
+    pub depth: DepthImage,
+    /// The whole arm's pixels, where the recording has them.
+    pub mask: Option<Mask>,
+    /// Where the joints put the end-effector.
+    pub base_from_end_effector: Transform<Base, EndEffector>,
+    /// Where they put the links.
+    pub posture: Posture,
+}
+
+impl Observations {
+    /// The views of all configurations.
+    pub fn views(&self) -> Vec<View<'_>> {
+        self.configurations.iter().map(|c| self.view(c)).collect()
+    }
+
+    /// One configuration as registration sees it.
+    pub fn view<'a>(&'a self, configuration: &'a Configuration) -> View<'a> {
+        View {
+            camera: &self.camera,
+            depth: &configuration.depth,
+            mask: configuration.mask.as_ref(),
+            posture: &configuration.posture,
+        }
+    }
+
+    /// Moves the links of all configurations to where the joints put them if they stand farther by
+    /// `offsets` than they say.
+    pub fn move_joints(&mut self, offsets: &JointOffsets) {
+        for configuration in &mut self.configurations {
+            configuration.posture = configuration.posture.moved(&self.arm, offsets);
+        }
+    }
+
+    /// Whether the whole arm can be told from the rest before its pose is known, and not only what
+    /// of it moved.
+    pub fn shows_whole_arm(&self) -> bool {
+        self.has_masks() || self.background.depth().is_some()
+    }
+
+    /// Whether the recording says which pixels are the arm.
+    pub fn has_masks(&self) -> bool {
+        self.configurations.iter().all(|c| c.mask.is_some())
+    }
+}

@@ -1,0 +1,76 @@
+//! Frames with the arm in one place: configurations.
+
+use super::error::RecordError;
+use super::options::MOST_CONFIGURATIONS;
+use eyebolt_geometry::{Base, EndEffector, Transform};
+use eyebolt_recording::FrameSource;
+use eyebolt_robot::{Arm, JointPositions, LinkPoses};
+
+/// Frames with the arm in one place.
+pub(crate) struct Group {
+    /// Indices, rising.
+    pub(crate) frames: Vec<usize>,
+    /// Where the joints of the first frame put the links.
+    pub(crate) first: Placement,
+}
+
+/// Frames of each configuration, in order of appearance; `each` gets every frame's name and joints.
+pub(crate) fn group_frames(
+    source: &dyn FrameSource,
+    arm: &Arm,
+    mut each: impl FnMut(&str, &JointPositions),
+) -> Result<Vec<Group>, RecordError> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, name) in source.frame_names().iter().enumerate() {
+        let joints = source.read_joints(index)?;
+        each(name, &joints);
+        let placement = place(arm, name, &joints)?;
+        let same =
+            |group: &Group| same_place(&group.first.base_from_links, &placement.base_from_links);
+        // From the last one, which it mostly is.
+        match groups.iter().rposition(same) {
+            Some(known) => groups[known].frames.push(index),
+            None if groups.len() < MOST_CONFIGURATIONS => {
+                groups.push(Group { frames: vec![index], first: placement });
+            }
+            None => return Err(RecordError::NeverAtRest),
+        }
+    }
+    Ok(groups)
+}
+
+/// Where the joints of one frame put the links.
+pub(crate) struct Placement {
+    pub(crate) base_from_links: LinkPoses,
+    pub(crate) base_from_end_effector: Transform<Base, EndEffector>,
+    pub(crate) assumed_joints: Vec<String>,
+}
+
+fn place(arm: &Arm, frame: &str, joints: &JointPositions) -> Result<Placement, RecordError> {
+    let failed = |source| RecordError::Kinematics { frame: frame.to_owned(), source };
+    let poses = arm.link_poses_with_defaults(joints).map_err(failed)?;
+    Ok(Placement {
+        base_from_links: poses.base_from_links,
+        base_from_end_effector: arm.base_from_end_effector(joints).map_err(failed)?,
+        assumed_joints: poses.defaulted_joints,
+    })
+}
+
+/// Frames whose links are this near to each other show the same configuration: more than encoders
+/// at rest make of it, less than anyone moves an arm on purpose.
+const SAME_M: f64 = 5e-3;
+const SAME_RAD: f64 = 1e-2;
+
+/// Whether two frames have the arm in the same place; both are of the same robot.
+///
+/// The links decide, not the joints: a recording may hold joints of other things.
+fn same_place(a: &LinkPoses, b: &LinkPoses) -> bool {
+    a.iter().zip(b).all(|pair| match pair {
+        (Some(a), Some(b)) => {
+            let (metres, radians) = a.distance_to(b);
+            metres <= SAME_M && radians <= SAME_RAD
+        }
+        (None, None) => true,
+        _ => false,
+    })
+}

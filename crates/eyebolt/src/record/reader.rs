@@ -1,0 +1,90 @@
+//! The frames of a configuration, read and merged.
+
+use super::error::RecordError;
+use super::merge::{common_mask, median_depth};
+use super::options::RecordOptions;
+use super::projection::Projection;
+use crate::evenly::evenly;
+use eyebolt_geometry::{DepthImage, Mask, PinholeCamera, RayTable};
+use eyebolt_recording::{Frame, FrameSource};
+
+/// Pixels of the images that one configuration is made from: enough frames for a median, few
+/// enough for memory.
+const MOST_PIXELS: usize = 12_000_000;
+const FEWEST_FRAMES: usize = 5;
+pub(super) const MOST_FRAMES: usize = 30;
+
+/// The first of `frames` that can be read.
+pub(super) fn first_frame(
+    source: &dyn FrameSource,
+    frames: &[usize],
+) -> Result<Frame, RecordError> {
+    let mut left_out = None;
+    for index in frames {
+        match source.read_frame(*index) {
+            Err(error) if source.may_leave_out(&error) => left_out = Some(error),
+            read => return Ok(read?),
+        }
+    }
+    // A group has a frame, so that one was left out.
+    Err(left_out.expect("a configuration has a frame").into())
+}
+
+/// Reads the frames of configurations.
+pub(super) struct Reader<'a> {
+    pub(super) source: &'a dyn FrameSource,
+    pub(super) projection: &'a Projection,
+    pub(super) rays: &'a RayTable,
+    pub(super) options: &'a RecordOptions,
+}
+
+/// What the frames of a configuration saw.
+pub(super) struct Seen {
+    pub(super) depth: DepthImage,
+    pub(super) mask: Option<Mask>,
+}
+
+impl Reader<'_> {
+    pub(super) fn configuration(&self, frames: &[usize]) -> Result<Seen, RecordError> {
+        let camera = &self.projection.camera;
+        let most = (MOST_PIXELS / camera.pixel_count().max(1)).clamp(FEWEST_FRAMES, MOST_FRAMES);
+        let (mut images, mut masks, mut left_out) = (Vec::new(), Vec::new(), None);
+        for index in evenly(frames, most) {
+            let frame = match self.source.read_frame(index) {
+                Err(error) if self.source.may_leave_out(&error) => {
+                    left_out.get_or_insert(error);
+                    continue;
+                }
+                read => read?,
+            };
+            let mask = frame.mask.filter(|_| self.options.use_masks);
+            check_mask(&frame.name, mask.as_ref(), camera)?;
+            images.push(self.projection.depth_image(frame.range));
+            masks.push(mask);
+        }
+        if let Some(error) = left_out.filter(|_| images.is_empty()) {
+            return Err(error.into());
+        }
+        let image = median_depth(&images).expect("a configuration has a frame");
+        Ok(Seen { depth: self.along_rays(image), mask: common_mask(&masks) })
+    }
+
+    /// `image` where the lens has rays.
+    fn along_rays(&self, image: DepthImage) -> DepthImage {
+        let (width, height) = (image.width(), image.height());
+        let known = |(z, [x, y]): (f32, &[f32; 2])| if (x + y).is_nan() { 0.0 } else { z };
+        let depth_m = image.into_depth_m().into_iter().zip(self.rays.rays()).map(known).collect();
+        DepthImage::new(width, height, depth_m).expect("as many pixels as before")
+    }
+}
+
+/// A mask belongs to the pixels of the camera's images, also where clouds of another size are drawn
+/// as images.
+fn check_mask(frame: &str, mask: Option<&Mask>, camera: &PinholeCamera) -> Result<(), RecordError> {
+    let size = (camera.width(), camera.height());
+    let found = mask.map(|mask| (mask.width(), mask.height()));
+    match found.filter(|mask| *mask != size) {
+        Some(found) => Err(RecordError::MaskSize { frame: frame.to_owned(), found, size }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,87 @@
+//! From hypotheses to one refined answer.
+
+use super::configuration::{ConfigurationOutcome, Dropped, taking_part, too_many_misplaced};
+use super::shortlist;
+use super::workspace::Workspace;
+use crate::observations::Observations;
+use crate::pose::Hypothesis;
+use crate::progress::{Cancelled, Progress};
+use eyebolt_geometry::{Base, Camera, Mask, Transform};
+use eyebolt_registration::{Labels, RefineView, Refinement};
+
+/// The best of the hypotheses, refined on every configuration that takes part.
+#[derive(Debug)]
+pub struct Refined<'a> {
+    /// What the last refinement says, in the observations' own camera frame.
+    pub refinement: Refinement,
+    /// Which configurations of the observations it was fitted to.
+    pub(crate) indices: Vec<usize>,
+    /// What it saw of each of them.
+    pub(crate) seen: Vec<RefineView<'a>>,
+    /// Another pose that explained nearly as much before it was refined to its end.
+    pub(crate) rival: Option<Transform<Camera, Base>>,
+}
+
+/// What became of hypotheses.
+#[derive(Debug)]
+pub struct Found<'a> {
+    /// One for each configuration of the observations.
+    pub configurations: Vec<ConfigurationOutcome>,
+    /// Pixels of the arm in each of them, as they were labelled before the pose was known.
+    pub(crate) masks: Vec<Mask>,
+    /// `None` if no hypothesis could be refined.
+    pub refined: Option<Refined<'a>>,
+}
+
+/// Refines each of `hypotheses` a little, the best one to its end, and once more without those
+/// configurations in which the camera sees through a link.
+///
+/// # Errors
+///
+/// Cancelled.
+pub fn refine_best<'a>(
+    observations: &'a Observations,
+    labels: &[Labels],
+    hypotheses: &[Hypothesis],
+    progress: &dyn Progress,
+) -> Result<Found<'a>, Cancelled> {
+    let (width, height) = (observations.camera.width(), observations.camera.height());
+    let masks: Vec<Mask> = labels.iter().map(|labels| labels.robot_mask(width, height)).collect();
+    let mut configurations = outcomes(observations, &masks);
+    let mut workspace = Workspace::new(observations, &masks, taking_part(&configurations));
+    let Some(best) = shortlist::choose(&mut workspace, hypotheses, progress)? else {
+        return Ok(Found { configurations, masks, refined: None });
+    };
+    progress.advance(1, 2)?;
+    let (mut refinement, mut seen) = workspace.refine(&best.camera_from_base.into());
+    let misplaced = workspace.find_misplaced(&refinement, &mut configurations);
+    if misplaced > 0 && !too_many_misplaced(&configurations) {
+        tracing::debug!(misplaced, "refining again without configurations with a misplaced link");
+        workspace = Workspace::new(observations, &masks, taking_part(&configurations));
+        (refinement, seen) = workspace.refine(&refinement.end());
+    }
+    let Workspace { indices, .. } = workspace;
+    let refined = Some(Refined { refinement, indices, seen, rival: best.rival });
+    Ok(Found { configurations, masks, refined })
+}
+
+/// Share of an image's pixels that has to be the arm.
+const LEAST_ARM_SHARE: f64 = 1e-3;
+
+fn outcomes(observations: &Observations, masks: &[Mask]) -> Vec<ConfigurationOutcome> {
+    let least = (LEAST_ARM_SHARE * observations.camera.pixel_count() as f64) as usize;
+    let pairs = observations.configurations.iter().zip(masks);
+    pairs
+        .map(|(configuration, mask)| {
+            let depth = configuration.depth.depth_m();
+            let seen = mask.as_slice().iter().zip(depth).filter(|(m, z)| **m && **z > 0.0);
+            let pixels = seen.count();
+            ConfigurationOutcome {
+                frames: configuration.frames.clone(),
+                dropped: (pixels < least).then_some(Dropped::FewPixels { pixels }),
+                residual_m: None,
+                agreement: None,
+            }
+        })
+        .collect()
+}

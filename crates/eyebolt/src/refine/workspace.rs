@@ -1,0 +1,89 @@
+//! The configurations that take part, and the buffers to work on them.
+
+use super::agreement::{Agreement, agreement};
+use super::configuration::{ConfigurationOutcome, Dropped};
+use super::links::misplaced_links;
+use super::rounds::{CLOSING, refine};
+use crate::observations::Observations;
+use eyebolt_geometry::Mask;
+use eyebolt_registration::{Posture, RefineView, Refinement, Start, View};
+use eyebolt_render::Raster;
+
+/// The configurations that take part, and the buffers to work on them.
+pub(crate) struct Workspace<'a, 'm> {
+    pub(crate) observations: &'a Observations,
+    /// Which configurations of the observations these are.
+    pub(crate) indices: Vec<usize>,
+    pub(crate) views: Vec<View<'a>>,
+    masks: Vec<&'m Mask>,
+    pub(crate) rasters: Vec<Raster>,
+}
+
+impl<'a, 'm> Workspace<'a, 'm> {
+    /// A workspace for those configurations that `indices` names; `masks` are of all.
+    pub(crate) fn new(
+        observations: &'a Observations,
+        masks: &'m [Mask],
+        indices: Vec<usize>,
+    ) -> Self {
+        let view = |index: &usize| observations.view(&observations.configurations[*index]);
+        Self {
+            observations,
+            views: indices.iter().map(view).collect(),
+            masks: indices.iter().map(|i| &masks[*i]).collect(),
+            rasters: indices.iter().map(|_| Raster::new(&observations.camera)).collect(),
+            indices,
+        }
+    }
+
+    pub(crate) fn refine(&mut self, start: &Start) -> (Refinement, Vec<RefineView<'a>>) {
+        refine(self.observations, &self.views, &mut self.rasters, start, CLOSING)
+    }
+
+    /// Marks the configurations with a link that the camera sees through, and counts them.
+    pub(crate) fn find_misplaced(
+        &mut self,
+        refinement: &Refinement,
+        outcomes: &mut [ConfigurationOutcome],
+    ) -> usize {
+        let postures = self.postures(&refinement.end());
+        let (views, pose) = (with_postures(&self.views, &postures), &refinement.camera_from_base);
+        let found = misplaced_links(self.observations, &views, &mut self.rasters, pose);
+        let mut count = 0;
+        for (index, misplaced) in self.indices.iter().zip(found) {
+            if let Some(misplaced) = misplaced {
+                outcomes[*index].dropped = Some(Dropped::Misplaced(misplaced));
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// Where the links are with the joints as `at` has them.
+    fn postures(&self, at: &Start) -> Vec<Posture> {
+        let moved = |view: &View<'_>| view.posture.moved(&self.observations.arm, &at.joint_offsets);
+        self.views.iter().map(moved).collect()
+    }
+
+    pub(crate) fn agreement(&mut self, at: &Start) -> Vec<Agreement> {
+        let postures = self.postures(at);
+        let (views, pose) = (with_postures(&self.views, &postures), &at.camera_from_base);
+        agreement(self.observations, &views, &self.masks, &mut self.rasters, pose)
+    }
+
+    pub(crate) fn measure(
+        &mut self,
+        refinement: &Refinement,
+        outcomes: &mut [ConfigurationOutcome],
+    ) {
+        let agreement = self.agreement(&refinement.end());
+        for ((index, fit), agreement) in self.indices.iter().zip(&refinement.views).zip(agreement) {
+            outcomes[*index].residual_m = fit.surface_m();
+            outcomes[*index].agreement = Some(agreement);
+        }
+    }
+}
+
+fn with_postures<'b>(views: &[View<'b>], postures: &'b [Posture]) -> Vec<View<'b>> {
+    views.iter().zip(postures).map(|(view, posture)| View { posture, ..*view }).collect()
+}
