@@ -1,9 +1,11 @@
 //! Messages of a bag into another.
 
+use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
+use super::progress::{WriteProgress, tell};
 use super::recording_writer::DESCRIPTION;
-use super::{WriteError, WriteProgress, WriteRobot, tell};
+use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
 use crate::camera_info::camera_info_message;
