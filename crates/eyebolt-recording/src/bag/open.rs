@@ -49,8 +49,6 @@ impl Bag {
     /// decompressed to the folder `scratch` for as long as the bag is open.
     ///
     /// SQLite reads files for itself, so that its bags are an error here.
-    // The first caller outside the tests is a recording of a reader.
-    #[cfg_attr(not(test), allow(dead_code))]
     pub(crate) fn from_reader(
         name: &Path,
         reader: impl ReadSeek + 'static,

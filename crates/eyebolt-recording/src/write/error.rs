@@ -29,6 +29,19 @@ pub enum WriteError {
         /// Why it does not fit.
         problem: String,
     },
+    /// There is no frame to write.
+    #[error(
+        "{path}: frames: all {count} were left out: {reasons}. Record it again", path = path.display(),
+        reasons = reasons.join("; ")
+    )]
+    NoFrameLeft {
+        /// The recording.
+        path: PathBuf,
+        /// How many frames it has.
+        count: usize,
+        /// Why frames were left out, with how many for each reason, the most frequent first.
+        reasons: Vec<String>,
+    },
     /// Whoever was told of the progress wanted it to end.
     #[error("stopped; nothing was written")]
     Stopped,
