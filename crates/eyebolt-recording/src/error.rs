@@ -1,7 +1,11 @@
 //! What can be wrong with a recording.
 
+use eyebolt_robot::Input;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// What is wrong with a frame that saw nothing.
+const NO_DEPTH: &str = "no pixel has depth";
 
 /// Why a recording, or a frame of it, cannot be read. The text names file, field and remedy.
 #[derive(Debug, thiserror::Error)]
@@ -30,9 +34,11 @@ pub enum RecordingError {
         problem: String,
         /// What to do about it.
         remedy: String,
+        /// The input that says so, if it is not the file's own content. Then `field` is its name.
+        input: Option<Input>,
     },
     /// A frame saw nothing.
-    #[error("{path}: {field}: no pixel has depth. Record it again, or leave it out", path = path.display())]
+    #[error("{path}: {field}: {NO_DEPTH}. Record it again, or leave it out", path = path.display())]
     EmptyFrame {
         /// The recording.
         path: PathBuf,
@@ -73,6 +79,23 @@ impl RecordingError {
             field: field.into(),
             problem: problem.into(),
             remedy: remedy.into(),
+            input: None,
+        }
+    }
+
+    /// What was handed in as `input` does not fit the recording at `path`.
+    pub(crate) fn of_input(
+        path: &Path,
+        input: Input,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Invalid {
+            path: path.to_path_buf(),
+            field: input.to_string(),
+            problem: problem.into(),
+            remedy: remedy.into(),
+            input: Some(input),
         }
     }
 
@@ -91,9 +114,8 @@ impl RecordingError {
         match self {
             Self::Invalid { problem, .. } => problem.clone(),
             Self::Read { cause, .. } => cause.to_string(),
-            Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } | Self::EmptyFrame { .. } => {
-                self.to_string()
-            }
+            Self::EmptyFrame { .. } => NO_DEPTH.to_owned(),
+            Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } => self.to_string(),
         }
     }
 
@@ -118,5 +140,31 @@ impl RecordingError {
             | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => path,
         }
+    }
+
+    /// The input at fault, where it is one and not what the file says.
+    pub fn input(&self) -> Option<Input> {
+        match self {
+            Self::Invalid { input, .. } => *input,
+            Self::Read { .. }
+            | Self::EmptyFrame { .. }
+            | Self::NoSuchBackground { .. }
+            | Self::NoSuchFrame { .. } => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_at_fault_is_told_by_name_and_as_itself() {
+        let path = Path::new("a.mcap");
+        let error = RecordingError::of_input(path, Input::DEPTH_TOPIC, "no such topic", "Give one");
+        assert_eq!(error.to_string(), "a.mcap: `depth_topic`: no such topic. Give one");
+        assert_eq!(error.input(), Some(Input::DEPTH_TOPIC));
+        let error = RecordingError::invalid(path, "magic", "the file is not MCAP", "Give another");
+        assert_eq!(error.input(), None);
     }
 }

@@ -51,11 +51,6 @@ impl BagRecording {
         })
     }
 
-    /// Whether the bag says what the robot is.
-    pub(crate) fn has_description(&self) -> bool {
-        self.chosen.description.is_some()
-    }
-
     /// The camera, if a file told it, and the topic where it would be looked for.
     pub(crate) fn given_camera(&self) -> Option<(&PinholeCamera, String)> {
         let camera = self.camera().filter(|_| self.camera_given)?;
