@@ -61,6 +61,7 @@ mod npy;
 mod own_metadata;
 mod pattern;
 mod png_image;
+mod progress;
 mod recording;
 mod truth;
 mod unit_check;
@@ -78,9 +79,10 @@ pub use folder::Folder;
 pub use frame::{Frame, Range};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
+pub use progress::{Cancelled, Progress};
 pub use recording::Recording;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use write::{
-    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteProgress, WriteRobot,
+    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot,
     write_folder, write_mcap, write_static_transforms,
 };

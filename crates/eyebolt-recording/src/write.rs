@@ -9,7 +9,6 @@ mod mcap;
 mod messages;
 mod npy;
 mod png;
-mod progress;
 mod recording_writer;
 mod robot;
 
@@ -17,11 +16,11 @@ pub(crate) use crate::own_metadata::{BACKGROUND_TOPIC, check_names};
 pub use error::WriteError;
 pub use folder::write_folder;
 pub use mcap::{McapWriter, write_static_transforms};
-pub use progress::WriteProgress;
 pub use recording_writer::{RecordingInfo, RecordingWriter};
 pub use robot::WriteRobot;
 
 use crate::own_metadata;
+use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::truth;
 use std::io::{Seek, Write};
@@ -41,7 +40,7 @@ pub fn write_mcap(
     recording: &Recording,
     robot: &WriteRobot,
     output: impl Write + Seek,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<(), WriteError> {
     let metadata = from_frames::metadata(recording, robot);
     let truth = truth::text_of(recording)?;

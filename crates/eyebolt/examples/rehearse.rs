@@ -25,7 +25,6 @@ use eyebolt_render::Sensor;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::io::BufWriter;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 type Flags = BTreeMap<String, String>;
@@ -111,7 +110,7 @@ fn rehearse(
     let begun = Instant::now();
     let plan = plan(scenario, cache)?;
     let file = BufWriter::new(std::fs::File::create(&path)?);
-    plan.record(file, &mut |_, _| ControlFlow::Continue(()))?;
+    plan.record(file, &())?;
     let simulated_s = begun.elapsed().as_secs_f64();
     let begun = Instant::now();
     let recording = Recording::open(&path, &BagOptions::default())?;

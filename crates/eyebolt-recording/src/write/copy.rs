@@ -3,7 +3,7 @@
 use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
-use super::progress::{WriteProgress, tell};
+use crate::progress::Progress;
 use super::recording_writer::DESCRIPTION;
 use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
@@ -24,7 +24,7 @@ pub(super) fn bag<W: Write + Seek>(
     bag: &BagRecording,
     robot: &WriteRobot,
     writer: &mut McapWriter<W>,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<(), WriteError> {
     let total = bag.message_count();
     let (mut done, mut failed) = (0, None);
@@ -33,7 +33,7 @@ pub(super) fn bag<W: Write + Seek>(
     let scanned = bag.scan_again(&mut |message| {
         done += 1;
         let mut copy = || {
-            tell(progress, done, total)?;
+            progress.advance(done, total)?;
             extra.before(message, writer)?;
             // Of the topics that make a recording only the description is text.
             let replaced = urdf.is_some() && message.topic.message_type == types::STRING;

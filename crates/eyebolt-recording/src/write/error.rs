@@ -1,6 +1,7 @@
 //! Why nothing was written.
 
 use crate::error::RecordingError;
+use crate::progress::Cancelled;
 use std::io;
 use std::path::PathBuf;
 
@@ -45,4 +46,10 @@ pub enum WriteError {
     /// Whoever was told of the progress wanted it to end.
     #[error("stopped; nothing was written")]
     Stopped,
+}
+
+impl From<Cancelled> for WriteError {
+    fn from(_: Cancelled) -> Self {
+        Self::Stopped
+    }
 }

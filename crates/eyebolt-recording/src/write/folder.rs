@@ -7,7 +7,7 @@ mod output;
 
 use super::error::WriteError;
 use super::png;
-use super::progress::{WriteProgress, tell};
+use crate::progress::Progress;
 use super::robot::WriteRobot;
 use crate::folder::MANIFEST;
 use crate::recording::Recording;
@@ -30,7 +30,7 @@ pub fn write_folder(
     recording: &Recording,
     robot: &WriteRobot,
     folder: &Path,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<(), WriteError> {
     let mut output = Output::new(folder, recording.in_millimetres());
     let mut found = frames(recording, &mut output, progress)?;
@@ -49,7 +49,8 @@ pub fn write_folder(
     // Last: a folder without it is no recording.
     output.file(MANIFEST, manifest(recording, robot, found).as_bytes())?;
     let total = total(recording);
-    tell(progress, total, total)
+    progress.advance(total, total)?;
+    Ok(())
 }
 
 fn total(recording: &Recording) -> usize {
@@ -59,11 +60,11 @@ fn total(recording: &Recording) -> usize {
 fn frames(
     recording: &Recording,
     output: &mut Output<'_>,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<Found, WriteError> {
     let (mut found, mut left_out) = (Found::default(), LeftOut::default());
     for (index, name) in recording.frame_names().iter().enumerate() {
-        tell(progress, index, total(recording))?;
+        progress.advance(index, total(recording))?;
         let frame = match recording.read_frame(index) {
             Err(error) if recording.may_leave_out(&error) => {
                 left_out.add(&error);
@@ -92,10 +93,10 @@ fn backgrounds(
     recording: &Recording,
     output: &Output<'_>,
     found: &mut Found,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<(), WriteError> {
     for index in 0..recording.background_count() {
-        tell(progress, recording.frame_names().len() + index, total(recording))?;
+        progress.advance(recording.frame_names().len() + index, total(recording))?;
         let background = match recording.read_background(index) {
             Err(error) if recording.may_leave_out(&error) => continue,
             read => read?,

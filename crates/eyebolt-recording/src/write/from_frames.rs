@@ -1,7 +1,7 @@
 //! Frames of a folder as messages.
 
 use super::error::WriteError;
-use super::progress::{WriteProgress, tell};
+use crate::progress::Progress;
 use super::recording_writer::{Described, RecordingWriter};
 use super::robot::WriteRobot;
 use crate::bag_recording::BagRecording;
@@ -42,7 +42,7 @@ pub(super) fn write(
     metadata: BTreeMap<String, String>,
     truth: Option<&str>,
     output: impl Write + Seek,
-    progress: &mut WriteProgress<'_>,
+    progress: &dyn Progress,
 ) -> Result<(), WriteError> {
     let described = Described {
         camera: recording.camera(),
@@ -59,15 +59,15 @@ pub(super) fn write(
     let total = backgrounds + frames;
     let mut stamps = (1..).map(|second| second * STEP_NS);
     for (index, stamp_ns) in (0..backgrounds).zip(&mut stamps) {
-        tell(progress, index, total)?;
+        progress.advance(index, total)?;
         let background = recording.read_background(index)?;
         writer.background_in(stamp_ns, &background, recording.backgrounds_in_millimetres())?;
     }
     for (index, stamp_ns) in (0..frames).zip(&mut stamps) {
-        tell(progress, backgrounds + index, total)?;
+        progress.advance(backgrounds + index, total)?;
         one(recording, index, stamp_ns, &mut writer)?;
     }
-    tell(progress, total, total)?;
+    progress.advance(total, total)?;
     writer.finish()
 }
 

@@ -6,7 +6,6 @@ use super::sample::{
 use super::writer;
 use eyebolt_recording::{BagOptions, Recording, WriteRobot, write_folder, write_mcap};
 use std::fs::File;
-use std::ops::ControlFlow;
 
 /// Sorted before the topic of the depth, so that whoever takes the first one takes this.
 const TOPIC: &str = "/camera/background";
@@ -163,7 +162,7 @@ fn copies_hold_both_units() {
         let files = folder.path().join("files");
         std::fs::create_dir(&files).unwrap();
         let robot = WriteRobot::default();
-        let go_on = &mut |_, _| ControlFlow::Continue(());
+        let go_on = &();
         write_mcap(&recording, &robot, File::create(&copy).unwrap(), go_on).unwrap();
         write_folder(&recording, &robot, &files, go_on).unwrap();
         let [frame, background] = endings;

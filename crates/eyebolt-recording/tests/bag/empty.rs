@@ -6,7 +6,6 @@ use super::writer::Message;
 use eyebolt_recording::{
     BagOptions, Recording, RecordingError, WriteError, WriteRobot, write_folder,
 };
-use std::ops::ControlFlow;
 
 /// Makes it a compressed image, of which only the reading tells that it has no depth.
 fn without_depth(message: &mut Message) {
@@ -91,7 +90,7 @@ fn a_folder_of_no_frame_is_not_written() {
     let recording = Recording::open(&path, &BagOptions::default()).unwrap();
     let frames = recording.frame_names().len();
     let output = tempfile::tempdir().unwrap();
-    let go_on = &mut |_, _| ControlFlow::Continue(());
+    let go_on = &();
     let written = write_folder(&recording, &WriteRobot::default(), output.path(), go_on);
     let Err(WriteError::NoFrameLeft { count, .. }) = &written else { panic!("{written:?}") };
     assert_eq!(*count, frames);

@@ -5,7 +5,6 @@ use eyebolt_recording::{WriteRobot, write_folder, write_mcap};
 use mcap::MessageStream;
 use std::fs;
 use std::io::Cursor;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 const OTHER: &str = "<robot name=\"three links\"/>";
@@ -14,7 +13,7 @@ const OTHER: &str = "<robot name=\"three links\"/>";
 fn copy(from: &Path, urdf: Option<&str>) -> Vec<u8> {
     let robot = WriteRobot { urdf: urdf.map(str::to_owned), ..WriteRobot::default() };
     let mut output = Cursor::new(Vec::new());
-    let go_on = &mut |_, _| ControlFlow::Continue(());
+    let go_on = &();
     write_mcap(&open(from), &robot, &mut output, go_on).unwrap();
     output.into_inner()
 }
@@ -57,7 +56,7 @@ fn a_folder_has_the_one_that_is_given() {
     let folder = desk.file("folder");
     fs::create_dir(&folder).unwrap();
     let robot = WriteRobot { urdf: Some(OTHER.to_owned()), ..WriteRobot::default() };
-    let go_on = &mut |_, _| ControlFlow::Continue(());
+    let go_on = &();
     write_folder(&open(&bag), &robot, &folder, go_on).unwrap();
     assert_eq!(fs::read_to_string(folder.join("robot.urdf")).unwrap(), OTHER);
 }

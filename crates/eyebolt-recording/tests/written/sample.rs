@@ -11,7 +11,6 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{BufWriter, Cursor};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -139,7 +138,7 @@ impl Desk {
         let recording = open(from);
         let robot = WriteRobot { urdf: Some(URDF.to_owned()), ..WriteRobot::default() };
         let output = BufWriter::new(File::create(&path).unwrap());
-        write_mcap(&recording, &robot, output, &mut |_, _| ControlFlow::Continue(())).unwrap();
+        write_mcap(&recording, &robot, output, &()).unwrap();
         path
     }
 
@@ -147,7 +146,7 @@ impl Desk {
     pub fn folder(&self, from: &Path, name: &str) -> PathBuf {
         let path = self.file(name);
         fs::create_dir(&path).unwrap();
-        let go_on = &mut |_, _| ControlFlow::Continue(());
+        let go_on = &();
         write_folder(&open(from), &WriteRobot::default(), &path, go_on).unwrap();
         path
     }

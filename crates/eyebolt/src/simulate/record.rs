@@ -4,14 +4,14 @@ use super::faults::Encoders;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::{Choice, Plan, Scenario, SimulateError, Viewpoint};
 use eyebolt_geometry::{Base, Camera, Transform};
+use crate::progress::Progress;
 use eyebolt_recording::{
-    CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError, WriteProgress,
+    CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError,
 };
 use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
-use std::ops::ControlFlow;
 
 /// Name of the simulated camera's frame.
 const FRAME_ID: &str = "camera_depth_optical_frame";
@@ -25,7 +25,7 @@ impl Plan<'_> {
     pub fn record(
         &self,
         output: impl Write + Seek,
-        progress: &mut WriteProgress<'_>,
+        progress: &dyn Progress,
     ) -> Result<(), SimulateError> {
         let scenario = &self.scenario;
         let arm = scenario.arm;
@@ -43,10 +43,7 @@ impl Plan<'_> {
         let total = scenario.backgrounds
             + self.poses.len() * scenario.frames
             + ways * scenario.moving_frames;
-        let mut told = |done: usize| match progress(done, total) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(WriteError::Stopped),
-        };
+        let mut told = |done: usize| progress.advance(done, total).map_err(WriteError::from);
         self.write_backgrounds(&mut writer, &mut told)?;
         let encoders = self.encoders();
         let mut done = 0;

@@ -8,7 +8,6 @@ use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{BagOptions, Recording, WriteRobot, write_folder, write_mcap};
 use std::fs::File;
 use std::io::BufWriter;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The answer of the recording at `path`, without masks.
@@ -41,14 +40,13 @@ fn what_was_converted_gives_the_same_answer() {
     let whole = trusted(&opened.run());
     let folder = tempfile::tempdir().unwrap();
     let robot = WriteRobot::default();
-    let mut go_on = |_, _| ControlFlow::Continue(());
     let mcap = folder.path().join("a.mcap");
     let output = BufWriter::new(File::create(&mcap).unwrap());
-    write_mcap(&opened.recording, &robot, output, &mut go_on).unwrap();
+    write_mcap(&opened.recording, &robot, output, &()).unwrap();
     // A bag of the folder, and a folder of the bag: masks and all.
     let bag = Recording::open(&mcap, &BagOptions::default()).unwrap();
     assert!(bag.has_masks());
-    write_folder(&bag, &robot, folder.path(), &mut go_on).unwrap();
+    write_folder(&bag, &robot, folder.path(), &()).unwrap();
     for path in [mcap.as_path(), folder.path()] {
         let recording = Recording::open(path, &BagOptions::default()).unwrap();
         assert_eq!(recording.frame_names(), opened.recording.frame_names());

@@ -129,19 +129,37 @@ fn noise_differs_from_frame_to_frame() {
     assert_ne!(background(0), background(1));
 }
 
+/// Keeps what it hears, and ends the work after so many words.
+struct Heard {
+    told: std::cell::RefCell<Vec<(usize, usize)>>,
+    patience: usize,
+}
+
+impl eyebolt::progress::Progress for Heard {
+    fn begin(&self, _: &'static str) -> Result<(), eyebolt::progress::Cancelled> {
+        Ok(())
+    }
+
+    fn advance(&self, done: usize, total: usize) -> Result<(), eyebolt::progress::Cancelled> {
+        self.told.borrow_mut().push((done, total));
+        match self.told.borrow().len() <= self.patience {
+            true => Ok(()),
+            false => Err(eyebolt::progress::Cancelled),
+        }
+    }
+}
+
 #[test]
 fn whoever_wants_an_end_gets_one() {
-    use std::ops::ControlFlow;
     let plan = planned(full());
-    let (mut calls, mut last) = (0, (0, 0));
     let mut output = std::io::Cursor::new(Vec::new());
-    plan.record(&mut output, &mut |done, total| {
-        assert!(calls == 0 || done > last.0, "it gets on");
-        (calls, last) = (calls + 1, (done, total));
-        ControlFlow::Continue(())
-    })
-    .unwrap();
-    assert_eq!(last, (3 + 12 + 10, 3 + 12 + 10));
-    let stopped = plan.record(&mut output, &mut |_, _| ControlFlow::Break(()));
+    let heard = Heard { told: Vec::new().into(), patience: usize::MAX };
+    plan.record(&mut output, &heard).unwrap();
+    let told = heard.told.into_inner();
+    assert!(told.windows(2).all(|pair| pair[0].0 < pair[1].0), "it gets on");
+    assert_eq!(told.last(), Some(&(3 + 12 + 10, 3 + 12 + 10)));
+    let heard = Heard { told: Vec::new().into(), patience: 4 };
+    let stopped = plan.record(&mut output, &heard);
     assert!(stopped.unwrap_err().to_string().contains("stop"));
+    assert_eq!(heard.told.into_inner().len(), 5, "nothing more is done");
 }

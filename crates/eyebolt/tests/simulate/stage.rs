@@ -11,7 +11,6 @@ use eyebolt_registration::LinkCache;
 use eyebolt_render::{Mode, Sensor};
 use eyebolt_robot::{Arm, JointPositions};
 use std::io::Cursor;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 use tempfile::TempDir;
@@ -64,7 +63,7 @@ pub fn planned(scenario: Scenario<'static>) -> Plan<'static> {
 /// The bytes of its recording.
 pub fn bytes(plan: &Plan<'_>) -> Vec<u8> {
     let mut output = Cursor::new(Vec::new());
-    plan.record(&mut output, &mut |_, _| ControlFlow::Continue(())).unwrap();
+    plan.record(&mut output, &()).unwrap();
     output.into_inner()
 }
 
