@@ -59,7 +59,7 @@ impl Bytes {
     }
 
     /// The file's path, for a library that opens files by itself; `None` of what is no file.
-    pub(crate) fn into_file(self) -> Option<PathBuf> {
+    pub(crate) fn into_file_path(self) -> Option<PathBuf> {
         self.in_file.then_some(self.path)
     }
 

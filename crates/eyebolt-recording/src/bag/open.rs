@@ -174,7 +174,7 @@ impl Bag {
 /// SQLite opens files by itself.
 fn sqlite_path(bytes: Bytes) -> Result<PathBuf, RecordingError> {
     let name = bytes.path().to_path_buf();
-    bytes.into_file().ok_or_else(|| {
+    bytes.into_file_path().ok_or_else(|| {
         let problem = "bags in SQLite are read from files only";
         RecordingError::invalid(&name, "kind of file", problem, "Give the file's path")
     })
