@@ -1,5 +1,6 @@
 //! What can be wrong with a recording.
 
+use eyebolt_robot::Input;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -30,6 +31,8 @@ pub enum RecordingError {
         problem: String,
         /// What to do about it.
         remedy: String,
+        /// The input that says so, if it is not the file's own content. Then `field` is its name.
+        input: Option<Input>,
     },
     /// A frame saw nothing.
     #[error("{path}: {field}: no pixel has depth. Record it again, or leave it out", path = path.display())]
@@ -73,6 +76,23 @@ impl RecordingError {
             field: field.into(),
             problem: problem.into(),
             remedy: remedy.into(),
+            input: None,
+        }
+    }
+
+    /// What was handed in as `input` does not fit the recording at `path`.
+    pub(crate) fn of_input(
+        path: &Path,
+        input: Input,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Invalid {
+            path: path.to_path_buf(),
+            field: input.to_string(),
+            problem: problem.into(),
+            remedy: remedy.into(),
+            input: Some(input),
         }
     }
 
@@ -118,5 +138,31 @@ impl RecordingError {
             | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => path,
         }
+    }
+
+    /// The input at fault, where it is one and not what the file says.
+    pub fn input(&self) -> Option<Input> {
+        match self {
+            Self::Invalid { input, .. } => *input,
+            Self::Read { .. }
+            | Self::EmptyFrame { .. }
+            | Self::NoSuchBackground { .. }
+            | Self::NoSuchFrame { .. } => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_at_fault_is_told_by_name_and_as_itself() {
+        let path = Path::new("a.mcap");
+        let error = RecordingError::of_input(path, Input::DEPTH_TOPIC, "no such topic", "Give one");
+        assert_eq!(error.to_string(), "a.mcap: `depth_topic`: no such topic. Give one");
+        assert_eq!(error.input(), Some(Input::DEPTH_TOPIC));
+        let error = RecordingError::invalid(path, "magic", "the file is not MCAP", "Give another");
+        assert_eq!(error.input(), None);
     }
 }
