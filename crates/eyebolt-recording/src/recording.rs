@@ -36,7 +36,7 @@ impl Recording {
     }
 
     /// What everything but a writer needs to know of it.
-    pub fn source(&self) -> &dyn FrameSource {
+    pub fn source(&self) -> &(dyn FrameSource + 'static) {
         match self {
             Self::Folder(folder) => folder.as_ref(),
             Self::Bag(bag) => bag.as_ref(),

@@ -4,6 +4,7 @@ use super::mcap::McapWriter;
 use super::messages;
 use super::recording_writer::DESCRIPTION;
 use super::{WriteError, WriteProgress, WriteRobot, tell};
+use crate::frame_source::FrameSource;
 use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
 use crate::camera_info::camera_info_message;
