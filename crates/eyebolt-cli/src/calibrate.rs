@@ -14,7 +14,7 @@ use eyebolt::pipeline::{self, Failure, Outcome, Request};
 use eyebolt::progress::Step;
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
-use eyebolt_recording::{FrameSource, Recording};
+use eyebolt_recording::Recording;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         },
         limits: limits(arguments),
         seed: arguments.seed,
-        ..Request::new(&recording, &arm)
+        ..Request::new(recording.source(), &arm)
     };
     let outcome = pipeline::run(&request, &bar)
         .map_err(|error| named(error, &arguments.recording.recording))?;

@@ -5,7 +5,7 @@ use crate::inputs::{RecordingArguments, RobotArguments};
 use crate::output;
 use crate::progress::{Counting, Waiting};
 use anyhow::{Context, Result, bail};
-use eyebolt_recording::{FrameSource, Recording, write_folder, write_mcap};
+use eyebolt_recording::{Recording, write_folder, write_mcap};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 

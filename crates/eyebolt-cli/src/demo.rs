@@ -115,7 +115,7 @@ fn calibrate(
     let begun = Instant::now();
     let bar = Bar::new()?;
     let recording = Recording::open(&session, &BagOptions::default())?;
-    let request = Request { cache: cache.clone(), ..Request::new(&recording, arm) };
+    let request = Request { cache: cache.clone(), ..Request::new(recording.source(), arm) };
     let outcome = pipeline::run(&request, &bar)?;
     bar.finish();
     let spent_s = begun.elapsed().as_secs_f64();

@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         }
         Err(error) => return Err(error),
     };
-    let mut info = Info::new(&recording, arm.as_ref())?;
+    let mut info = Info::new(recording.source(), arm.as_ref())?;
     if let Some(problem) = problem {
         // Instead of the advice to give one.
         info.advice.retain(|line| !line.starts_with(NO_ROBOT));

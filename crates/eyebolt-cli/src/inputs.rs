@@ -1,7 +1,7 @@
 //! Flags that say what the recording and the robot are, shared by the commands.
 
 use anyhow::{Context, Result, bail};
-use eyebolt_recording::{BagOptions, CloudFrame, FrameSource, Recording, WriteRobot};
+use eyebolt_recording::{BagOptions, CloudFrame, Recording, WriteRobot};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::path::{Path, PathBuf};

@@ -6,6 +6,7 @@ mod tests;
 
 use anyhow::{Result, anyhow, bail};
 use replace::{NotReplaced, Rename, replace};
+use eyebolt_recording::WriteError;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};

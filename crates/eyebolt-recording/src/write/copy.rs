@@ -3,6 +3,7 @@
 use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
+use crate::frame_source::FrameSource;
 use crate::progress::Progress;
 use super::recording_writer::DESCRIPTION;
 use super::robot::WriteRobot;

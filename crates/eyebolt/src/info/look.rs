@@ -98,8 +98,8 @@ fn configurations(
     for index in 0..names.len() {
         let joints = source.read_joints(index)?;
         // From the last one, which it mostly is.
-        match groups.iter_mut().rev().find(|(first, _)| same_joints(first, &joints)) {
-            Some((_, frames)) => frames.push(index),
+        match groups.iter().rposition(|(first, _)| same_joints(first, &joints)) {
+            Some(known) => groups[known].1.push(index),
             None if groups.len() < MOST_CONFIGURATIONS => groups.push((joints, vec![index])),
             None => break,
         }

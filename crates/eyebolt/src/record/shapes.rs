@@ -2,7 +2,7 @@
 
 use super::error::RecordError;
 use eyebolt_registration::{ArmLink, ArmModel, LinkCache, LinkModel};
-use eyebolt_robot::{Arm, Link, MeshError, Prefer, TriangleMesh, link_fingerprint, link_mesh};
+use eyebolt_robot::{Arm, Link, Prefer, TriangleMesh, link_fingerprint, link_mesh};
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -98,7 +98,7 @@ impl<'a> ArmBody<'a> {
     pub(super) fn bumps(&self, posture: &Posture, camera_in_base: &Point3<f64>) -> bool {
         const CAMERA_CLEARANCE_M: f32 = 0.3;
         let camera = camera_in_base.cast();
-        posture.nearest_within(&self.model, &camera, CAMERA_CLEARANCE_M).is_some()
+        posture.nearest_within(&self.model, &camera, CAMERA_CLEARANCE_M, 0).is_some()
             || self.sinks(posture)
             || self.pairs().any(|pair| !self.may_touch.contains(&pair) && self.touch(posture, pair))
     }
