@@ -5,8 +5,8 @@ mod replace;
 mod tests;
 
 use anyhow::{Result, anyhow, bail};
-use replace::{NotReplaced, Rename, replace};
 use eyebolt_recording::WriteError;
+use replace::{NotReplaced, Rename, replace};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};

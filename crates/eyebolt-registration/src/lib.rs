@@ -32,8 +32,8 @@ pub use evidence::{Presentation, Reach, presentation};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    Fit, JointPrior, RefineOptions, RefineView, Refinement, Residual, Start, StopReason, Trust,
-    ViewFit, refine, residuals,
+    Fit, JointPrior, LeftOut, RefineOptions, RefineView, Refinement, Residual, Start, StopReason,
+    Trust, ViewFit, refine, residuals, settle,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

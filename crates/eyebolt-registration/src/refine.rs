@@ -9,11 +9,14 @@ mod left_out;
 mod outcome;
 mod priors;
 mod residuals;
+mod settle;
 mod start;
 mod summary;
 mod system;
 
 pub use gauss_newton::refine;
+pub use left_out::LeftOut;
 pub use outcome::{Fit, Refinement, StopReason, ViewFit};
 pub use residuals::{Residual, residuals};
+pub use settle::settle;
 pub use start::{JointPrior, RefineOptions, RefineView, Start, Trust};

@@ -7,9 +7,8 @@
 //! The first run, not counted, fills the cache of link shapes.
 #![allow(clippy::print_stdout)]
 
-use eyebolt::calibrate::Limits;
 use eyebolt::pipeline::{Request, run};
-use eyebolt::progress::{Progress, Step};
+use eyebolt::progress::{Cancelled, Progress};
 use eyebolt::record::RecordOptions;
 use eyebolt_recording::{BagOptions, Recording};
 use eyebolt_registration::LinkCache;
@@ -26,8 +25,13 @@ type Failure = Box<dyn std::error::Error>;
 struct Clock(RefCell<Vec<(&'static str, Instant)>>);
 
 impl Progress for Clock {
-    fn begin(&self, step: Step) {
-        self.0.borrow_mut().push((step.name(), Instant::now()));
+    fn begin(&self, stage: &'static str) -> Result<(), Cancelled> {
+        self.0.borrow_mut().push((stage, Instant::now()));
+        Ok(())
+    }
+
+    fn advance(&self, _: usize, _: usize) -> Result<(), Cancelled> {
+        Ok(())
     }
 }
 
@@ -81,8 +85,8 @@ fn time_one(
     let robot = Robot::from_urdf_file(urdf, &PackageRoots::new())?;
     let arm = robot.arm(section.base.as_deref(), section.end_effector.as_deref())?;
     let options = RecordOptions { use_masks, ..RecordOptions::default() };
-    let limits = Limits::default();
-    let request = Request { recording: &recording, arm: &arm, cache, options, limits, seed: 1 };
+    let request =
+        Request { cache: cache.clone(), options, ..Request::new(recording.source(), &arm) };
     let clock = Clock::default();
     let opened = Instant::now();
     run(&request, &clock)?;

@@ -4,7 +4,7 @@
 //! ```text
 //! cargo run --release -p eyebolt --example rehearse -- [--seeds 30] [--first-seed 1] [--preset P]
 //!     [--sensor kinect-v1] [--backgrounds 10] [--frames 10] [--configurations 6]
-//!     [--joint-offset-deg 0] [--joint-offset-sigma-deg 0] [--depth-scale 1]
+//!     [--joint-offset-deg 0] [--joint-offset-sigma-deg 0] [--depth-scale 1] [--jackknife newton]
 //! ```
 //!
 //! One line for each seed and preset, then one JSON line with the figures of all. Without
@@ -13,10 +13,9 @@
 
 #![allow(clippy::print_stdout, reason = "what an example is for")]
 
-use eyebolt::calibrate::{Limits, Verdict};
+use eyebolt::calibrate::{Jackknife, Verdict};
 use eyebolt::evaluate::Evaluation;
 use eyebolt::pipeline::{self, Request};
-use eyebolt::record::RecordOptions;
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Preset, Ranges, Scenario, Viewpoint, plan};
 use eyebolt_recording::{BagOptions, Recording};
@@ -114,14 +113,13 @@ fn rehearse(
     let simulated_s = begun.elapsed().as_secs_f64();
     let begun = Instant::now();
     let recording = Recording::open(&path, &BagOptions::default())?;
-    let request = Request {
-        recording: &recording,
-        arm: &arm,
-        cache,
-        options: RecordOptions::default(),
-        limits: Limits::default(),
-        seed: 1,
+    let jackknife = match flags.get("jackknife").map(String::as_str) {
+        None | Some("newton") => Jackknife::Newton,
+        Some("exact") => Jackknife::Exact,
+        Some(other) => return Err(format!("--jackknife {other}: newton or exact").into()),
     };
+    let request =
+        Request { cache: cache.clone(), jackknife, ..Request::new(recording.source(), &arm) };
     let calibration = pipeline::run(&request, &())?.calibration;
     let truth = plan.sought_camera_from_base();
     let expected = calibration.error.as_ref().map(|error| error.expected);
@@ -145,7 +143,7 @@ fn line(seed: u64, viewpoint: &Viewpoint, run: &Run) -> String {
         format!("{translation_mm:7.2} mm {rotation_deg:7.3} deg")
     });
     format!(
-        "{seed:3} {place:14} {found} (expected {:.1} mm {:.2} deg) {:7} simulated {:.1} s, calibrated {:.1} s",
+        "{seed:3} {place:14} {found} (expected {:.3} mm {:.4} deg) {:7} simulated {:.1} s, calibrated {:.1} s",
         run.expected_mm,
         run.expected_deg,
         if run.trusted { "trusted" } else { "refused" },

@@ -3,19 +3,19 @@
 use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
-use crate::frame_source::FrameSource;
-use crate::progress::Progress;
 use super::recording_writer::DESCRIPTION;
 use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
 use crate::camera_info::camera_info_message;
 use crate::error::RecordingError;
+use crate::frame_source::FrameSource;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
     JointStateMessage, WireProblem, WireReader, WireWriter, text, transforms, types,
     write_transforms,
 };
+use crate::progress::Progress;
 use std::borrow::Cow;
 use std::io::{Seek, Write};
 

@@ -7,9 +7,9 @@ mod output;
 
 use super::error::WriteError;
 use super::png;
-use crate::progress::Progress;
 use super::robot::WriteRobot;
 use crate::folder::MANIFEST;
+use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::truth;
 use description::{Found, camera_info, manifest};

@@ -90,7 +90,7 @@ fn weights(
 }
 
 /// Three standard deviations of each kind's residuals: what lies beyond counts little.
-fn final_scales(deviations: &[f64; EVIDENCE_KINDS]) -> [f64; EVIDENCE_KINDS] {
+pub(super) fn final_scales(deviations: &[f64; EVIDENCE_KINDS]) -> [f64; EVIDENCE_KINDS] {
     std::array::from_fn(|kind| 3.0 * deviations[kind].max(KINDS[kind].least_kernel_deviation()))
 }
 

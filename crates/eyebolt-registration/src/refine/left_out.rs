@@ -1,32 +1,57 @@
-//! What the answer would be without one of its views: ARCHITECTURE.md, (9).
+//! What the answer would be without some of its views: ARCHITECTURE.md, (10).
 
 use super::priors::with_priors;
 use super::start::Start;
-use super::system::System;
+use super::system::{Sum, System};
 use crate::arm::MOST_JOINTS;
 use crate::unknowns::State;
 
-/// One Newton step from the answer at `state` on the problem without each of `views` views in turn:
-/// the residuals are those of the answer, so the cost is that of a linear system for each view.
-/// `curved` has Newton's matrix, and `system` serves where that is not positive definite.
+/// With more views than this, they are also left out in so many groups.
+const MOST_ALONE: usize = 10;
+
+/// The answer without some views, by one Newton step from the full one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftOut {
+    /// The views that were left out.
+    pub views: Vec<usize>,
+    /// Where that step leads.
+    pub(super) state: State,
+}
+
+impl LeftOut {
+    /// The pose and the joint offsets there.
+    pub fn first_step(&self) -> Start {
+        let State { camera_from_base, joint_offsets, .. } = self.state;
+        Start { camera_from_base, joint_offsets }
+    }
+}
+
+/// What the answer at `state` would be without each of `views` views in turn, and of many also
+/// without each of ten groups of them.
 ///
-/// Empty if the views but one do not determine the pose.
+/// The residuals are those of the full answer, so the cost is that of a linear system each. `curved`
+/// has Newton's matrix, and `system` serves where that is not positive definite. Empty where the
+/// rest does not determine the pose.
 pub(super) fn without_each(
     system: &System<'_>,
     curved: &System<'_>,
     state: &State,
     joint_prior_rad: &[f64; MOST_JOINTS],
     views: usize,
-) -> Vec<Start> {
-    let (total, curved_total) = (system.total(), curved.total());
-    let without = |view: usize| {
-        let newton = curved.total_without(view, &curved_total);
-        let step = with_priors(newton, state, joint_prior_rad).solve(1e-6).or_else(|| {
-            let reweighted = system.total_without(view, &total);
-            with_priors(reweighted, state, joint_prior_rad).solve(1e-6)
-        })?;
-        let left = state.stepped(&step);
-        Some(Start { camera_from_base: left.camera_from_base, joint_offsets: left.joint_offsets })
+) -> [Vec<LeftOut>; 2] {
+    let totals = [curved.total(), system.total()];
+    let without = |views: Vec<usize>| {
+        let rest = |system: &System<'_>, total: &Sum| {
+            let rest = system.total_without(&views, total);
+            with_priors(rest, state, joint_prior_rad).solve(1e-6)
+        };
+        let step = rest(curved, &totals[0]).or_else(|| rest(system, &totals[1]))?;
+        Some(LeftOut { views, state: state.stepped(&step) })
     };
-    (0..views).map(without).collect::<Option<Vec<_>>>().unwrap_or_default()
+    let alone = (0..views).map(|view| without(vec![view])).collect::<Option<Vec<_>>>();
+    // Every tenth view: neighbours in time are in different groups.
+    let group = |first| (first..views).step_by(MOST_ALONE).collect();
+    let groups = if views > MOST_ALONE { 0..MOST_ALONE } else { 0..0 };
+    let groups = groups.map(|first| without(group(first))).collect::<Option<Vec<_>>>();
+    [alone.unwrap_or_default(), groups.unwrap_or_default()]
 }

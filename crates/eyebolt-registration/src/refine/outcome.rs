@@ -1,5 +1,6 @@
 //! What a refinement comes to.
 
+use super::left_out::LeftOut;
 use super::start::Start;
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::unknowns::{EVIDENCE_KINDS, OUTLINES, SURFACES};
@@ -71,9 +72,10 @@ pub struct Refinement {
     pub deviations: [f64; EVIDENCE_KINDS],
     /// One for each view.
     pub views: Vec<ViewFit>,
-    /// For each view what the answer would be without it, by one Newton step from the answer;
-    /// empty where that is not determined.
-    pub left_out: Vec<Start>,
+    /// For each view the answer without it; empty where the rest does not determine one.
+    pub left_out: Vec<LeftOut>,
+    /// Of more than ten views, the answers without each of ten groups of them.
+    pub groups_left_out: Vec<LeftOut>,
     /// Steps taken.
     pub iterations: usize,
     /// The last of them: translation (m) and rotation (rad).

@@ -37,6 +37,8 @@ pub(super) fn summarise(
     let information = inverse
         .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
         .unwrap_or_else(Matrix6::zeros);
+    let [left_out, groups_left_out] =
+        without_each(system, curved, state, joint_prior_rad, gathered.len());
     let Ending { iterations, last_step, stop } = ending;
     Refinement {
         camera_from_base: state.camera_from_base,
@@ -51,7 +53,8 @@ pub(super) fn summarise(
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),
         deviations: weights.deviations,
         views: gathered.iter().map(|view| view_fit(view, &weights.deviations)).collect(),
-        left_out: without_each(system, curved, state, joint_prior_rad, gathered.len()),
+        left_out,
+        groups_left_out,
         iterations,
         last_step,
         stop: if covariance.is_none() { StopReason::Underdetermined } else { stop },

@@ -12,6 +12,7 @@ use crate::normal_equations::NormalEquations;
 use crate::robust::{geman_mcclure, geman_mcclure_curvature};
 use crate::unknowns::{EVIDENCE_KINDS, UNKNOWNS};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Normal equations of all unknowns.
 pub(super) type Sum = NormalEquations<UNKNOWNS>;
@@ -78,24 +79,28 @@ impl<'a> System<'a> {
         total
     }
 
-    /// The sum of all views but one; the rest of a cluster then counts as much as the whole did.
-    pub fn total_without(&self, left_out: usize, total: &Sum) -> Sum {
+    /// The sum of all views but those `left_out`; the rest of a cluster then counts as much as the
+    /// whole did.
+    pub fn total_without(&self, left_out: &[usize], total: &Sum) -> Sum {
         let mut rest = total.clone();
-        for (link, cluster) in self.clusters[left_out].iter().enumerate() {
-            for sum in &self.sums[left_out][link] {
-                rest.subtract_all(sum);
+        let mut thinned: BTreeMap<usize, usize> = BTreeMap::new();
+        for view in left_out {
+            for (cluster, sums) in self.clusters[*view].iter().zip(&self.sums[*view]) {
+                sums.iter().for_each(|sum| rest.subtract_all(sum));
+                if cluster.views > 1 {
+                    *thinned.entry(cluster.number).or_default() += 1;
+                }
             }
-            if cluster.views < 2 {
+        }
+        for (view, (clusters, sums)) in self.clusters.iter().zip(&self.sums).enumerate() {
+            if left_out.contains(&view) {
                 continue;
             }
-            // One of `n` views left out: the others count `n / (n - 1)` times as much.
-            let more = ((cluster.views - 1) as f64).recip();
-            for (view, clusters) in self.clusters.iter().enumerate() {
-                if view != left_out && clusters[link].number == cluster.number {
-                    for sum in &self.sums[view][link] {
-                        rest.add_scaled(sum, more);
-                    }
-                }
+            for (cluster, sums) in clusters.iter().zip(sums) {
+                // Of `n` views `k` left out: the others count `n / (n - k)` times as much.
+                let Some(gone) = thinned.get(&cluster.number) else { continue };
+                let more = *gone as f64 / (cluster.views - gone) as f64;
+                sums.iter().for_each(|sum| rest.add_scaled(sum, more));
             }
         }
         rest

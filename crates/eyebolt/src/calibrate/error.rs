@@ -9,7 +9,7 @@
 //! arm's offsets are large, and the pose is with it.
 
 use super::deviation::Deviation;
-use super::jackknife::{Jackknife, jackknife, left_out};
+use super::jackknife::{Jackknife, jackknife, without_parts};
 use super::one_kind::{one_kind_each, spread};
 use crate::refine::Workspace;
 use eyebolt_geometry::{Base, Camera, Transform};
@@ -89,11 +89,11 @@ pub(crate) fn estimate(
 ) -> ErrorEstimate {
     let pose = refinement.camera_from_base;
     let workspace_in_base = workspace(work);
-    let left_out = left_out(work, seen, refinement, how);
+    let without = without_parts(work, seen, refinement, how);
     let one_kind = one_kind_each(work, seen, refinement);
     let mut sources = vec![(ErrorSource::Scatter, refinement.covariance)];
-    if let Some(ends) = &left_out {
-        sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, ends))));
+    if let Some(without) = &without {
+        sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, &without.parts))));
     }
     sources.push(match &one_kind {
         // The answer lies between them, and any of them may be the best one.
@@ -117,9 +117,9 @@ pub(crate) fn estimate(
         expected: expected(&covariance, &pose, &workspace_in_base),
         parts: parts.collect(),
         covariance: to_optical * covariance * to_optical.transpose(),
-        leave_one_out: left_out
+        leave_one_out: without
             .as_ref()
-            .map(|ends| ends.iter().map(|e| between(&end, e)).collect()),
+            .map(|without| without.configurations.iter().map(|e| between(&end, e)).collect()),
         disagreement: one_kind.as_ref().map(|ends| {
             let pairs = ends
                 .iter()
@@ -129,7 +129,11 @@ pub(crate) fn estimate(
             apart.fold(Deviation::default(), Deviation::larger)
         }),
         workspace_in_base,
-        joint_sigma_rad: joint_sigma(refinement, left_out.as_deref(), one_kind.as_deref()),
+        joint_sigma_rad: joint_sigma(
+            refinement,
+            without.as_ref().map(|without| without.parts.as_slice()),
+            one_kind.as_deref(),
+        ),
     }
 }
 

@@ -1,15 +1,18 @@
 //! What an answer depends on: it is found again without each configuration in turn.
 
 use crate::refine::{Workspace, again};
-use eyebolt_registration::{JointPrior, RefineOptions, RefineView, Refinement, Start};
+use eyebolt_registration::{
+    JointPrior, LeftOut, RefineOptions, RefineView, Refinement, Start, settle,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// How the answers without single configurations are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Jackknife {
-    /// By one Newton step each from the full answer: linear in the number of configurations.
+    /// By two Newton steps each from the full answer; of more than ten configurations, by leaving
+    /// out ten groups of them, so that time grows no more than with their number.
     #[default]
-    OneStep,
+    Newton,
     /// By refining on from the full answer on the rest, to measure the other way by: quadratic.
     Exact,
 }
@@ -17,23 +20,44 @@ pub enum Jackknife {
 /// Steps of an exact one: enough to settle.
 const STEPS: usize = 6;
 
-/// The answers without each of the views in turn; `None` with fewer than three, or where the rest
-/// does not determine the pose.
-pub(super) fn left_out(
+/// Answers without parts of the data.
+pub(super) struct WithoutParts {
+    /// Without each of the configurations.
+    pub configurations: Vec<Start>,
+    /// Without each part; together they tell the variance of the answer.
+    pub parts: Vec<Start>,
+}
+
+/// The answers without parts of the views; `None` with fewer than three views, or where the rest does
+/// not determine the pose.
+pub(super) fn without_parts(
     work: &mut Workspace<'_, '_>,
     seen: &[RefineView<'_>],
     refinement: &Refinement,
     how: Jackknife,
-) -> Option<Vec<Start>> {
-    if seen.len() < 3 {
+) -> Option<WithoutParts> {
+    if seen.len() < 3 || refinement.left_out.is_empty() {
         return None;
     }
-    match how {
-        Jackknife::OneStep if refinement.left_out.len() == seen.len() => {
-            Some(refinement.left_out.clone())
-        }
-        _ => Some((0..seen.len()).map(|index| without(work, seen, refinement, index)).collect()),
+    if how == Jackknife::Exact {
+        let all = (0..seen.len()).map(|index| without(work, seen, refinement, index));
+        let configurations: Vec<Start> = all.collect();
+        return Some(WithoutParts { parts: configurations.clone(), configurations });
     }
+    let (arm, rasters) = (&work.observations.arm, &mut work.rasters);
+    let mut settled = |left_out: &[LeftOut]| -> Vec<Start> {
+        left_out.iter().map(|part| settle(arm, seen, rasters, refinement, part)).collect()
+    };
+    Some(match refinement.groups_left_out.is_empty() {
+        true => {
+            let configurations = settled(&refinement.left_out);
+            WithoutParts { parts: configurations.clone(), configurations }
+        }
+        false => WithoutParts {
+            configurations: refinement.left_out.iter().map(LeftOut::first_step).collect(),
+            parts: settled(&refinement.groups_left_out),
+        },
+    })
 }
 
 fn without(

@@ -3,11 +3,9 @@
 use super::faults::Encoders;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::{Choice, Plan, Scenario, SimulateError, Viewpoint};
-use eyebolt_geometry::{Base, Camera, Transform};
 use crate::progress::Progress;
-use eyebolt_recording::{
-    CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError,
-};
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_recording::{CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError};
 use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeMap;
