@@ -19,17 +19,19 @@ mod topics;
 mod track;
 
 pub use options::BagOptions;
-pub use pair::{DropReason, DroppedFrame};
-pub use stamps::ClockOffset;
-pub use topics::{TopicSummary, list_topics, static_transforms};
+pub use topics::{list_topics, static_transforms};
 
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
+use crate::color::ColorImage;
 use crate::error::RecordingError;
+use crate::frame::Frame;
+use crate::frame_source::FrameSource;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::WireProblem;
+use crate::provenance::{ClockOffset, DroppedFrame, Provenance, TopicSummary};
 use choose::Chosen;
-use eyebolt_geometry::PinholeCamera;
+use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
 use opening::{known_background, known_cloud_frame, robot};
 use pair::{Kept, Paired};
@@ -52,7 +54,7 @@ pub struct BagRecording {
     colors: Vec<FrameEntry>,
     /// Those that can be read, by their stamps.
     backgrounds: Vec<FrameEntry>,
-    clock_offset: Option<ClockOffset>,
+    provenance: Provenance,
     cloud_frame: Option<CloudFrame>,
     partial: bool,
     /// The intrinsics came from a file.
@@ -79,7 +81,7 @@ impl BagRecording {
             masks: by_stamp(&scan, chosen.mask),
             colors: by_stamp(&scan, chosen.color),
             backgrounds: backgrounds::backgrounds(&scan, chosen.background),
-            clock_offset: None,
+            provenance: Provenance::default(),
             cloud_frame: options.cloud_frame.or_else(|| known_cloud_frame(&bag)),
             partial: options.partial,
             camera_given: options.camera_info.is_some(),
@@ -93,36 +95,13 @@ impl BagRecording {
         recording.pair(options.max_motion)?;
         recording.check_joints()?;
         recording.find_cloud_frame()?;
+        recording.fill_provenance();
         Ok(recording)
-    }
-
-    /// The camera, unless the frames are clouds without one.
-    pub fn camera(&self) -> Option<&PinholeCamera> {
-        self.camera.as_ref().map(|info| &info.camera)
-    }
-
-    /// Name of the camera's optical frame, which the frames are in; `None` where only the camera's
-    /// body has a name, in which clouds were stored.
-    pub fn camera_frame_id(&self) -> Option<&str> {
-        let in_info = self.camera.as_ref().and_then(|info| info.frame_id.as_deref());
-        let turned = self.cloud_frame == Some(CloudFrame::Body);
-        let of_frames = self.range_topic().frame_id.as_deref().filter(|_| !turned);
-        of_frames.or(in_info)
-    }
-
-    /// What the bag says of the robot.
-    pub fn robot(&self) -> &RobotSection {
-        &self.robot
-    }
-
-    /// Names of the frames: their numbers among those of the topic.
-    pub fn frame_names(&self) -> &[String] {
-        &self.names
     }
 
     /// Frames that do not take part, with the reason.
     pub fn dropped_frames(&self) -> &[DroppedFrame] {
-        &self.paired.dropped
+        &self.provenance.dropped
     }
 
     /// How far a joint may move while a frame is taken, radians or metres.
@@ -132,12 +111,7 @@ impl BagRecording {
 
     /// How the clocks of depth and joints differ; `None` if one of them sets no stamps.
     pub fn clock_offset(&self) -> Option<ClockOffset> {
-        self.clock_offset
-    }
-
-    /// Whether frames come with masks of the arm.
-    pub fn has_masks(&self) -> bool {
-        self.chosen.mask.is_some()
+        self.provenance.clock_offset
     }
 
     /// What wrote the bag.
@@ -145,25 +119,28 @@ impl BagRecording {
         self.bag.kind()
     }
 
-    /// The files that it was read from.
-    pub fn sources(&self) -> Vec<PathBuf> {
-        self.bag.sources().map(Path::to_path_buf).collect()
+    /// Damaged parts that were passed over, in words.
+    pub fn damage(&self) -> &[String] {
+        &self.provenance.damage
     }
 
-    /// Damaged parts that were passed over.
-    pub fn damage(&self) -> &[RecordingError] {
-        &self.scan.damage
+    /// All topics, sorted by name.
+    pub fn topics(&self) -> Vec<TopicSummary> {
+        self.provenance.topics.clone()
     }
 
-    /// Positions of the joints in frame `index`, counted from 0 among those that take part.
-    ///
-    /// # Errors
-    ///
-    /// No such frame.
-    pub fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
-        let kept = self.kept(index)?;
-        let names = self.paired.names.iter().cloned();
-        Ok(names.zip(kept.positions.iter().copied()).collect())
+    fn fill_provenance(&mut self) {
+        let topics = (0..self.scan.topics.len()).filter_map(|number| self.summary(number));
+        self.provenance = Provenance {
+            name: self.path.display().to_string(),
+            kind: self.bag.kind().name(),
+            files: self.bag.sources().map(Path::to_path_buf).collect(),
+            topics: topics.collect(),
+            damage: self.scan.damage.iter().map(ToString::to_string).collect(),
+            motion_limit: Some(self.paired.motion_limit),
+            dropped: std::mem::take(&mut self.paired.dropped),
+            clock_offset: self.provenance.clock_offset,
+        };
     }
 
     /// Stamp of frame `index` by the clock of the depth, nanoseconds.
@@ -202,6 +179,76 @@ impl BagRecording {
     fn unreadable(&self, topic: &TopicScan, problem: &WireProblem) -> RecordingError {
         let field = format!("{}: {}", topic.name, problem.field);
         self.invalid(&field, problem.problem.clone(), "Record it again")
+    }
+}
+
+impl FrameSource for BagRecording {
+    fn camera(&self) -> Option<&PinholeCamera> {
+        self.camera.as_ref().map(|info| &info.camera)
+    }
+
+    /// Name of the camera's optical frame, which the frames are in; `None` where only the camera's
+    /// body has a name, in which clouds were stored.
+    fn camera_frame_id(&self) -> Option<&str> {
+        let in_info = self.camera.as_ref().and_then(|info| info.frame_id.as_deref());
+        let turned = self.cloud_frame == Some(CloudFrame::Body);
+        let of_frames = self.range_topic().frame_id.as_deref().filter(|_| !turned);
+        of_frames.or(in_info)
+    }
+
+    fn robot(&self) -> &RobotSection {
+        &self.robot
+    }
+
+    /// Names of the frames that take part: their numbers among those of the topic, unless the bag
+    /// has names for them.
+    fn frame_names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn has_masks(&self) -> bool {
+        self.chosen.mask.is_some()
+    }
+
+    fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
+        self.frame(index)
+    }
+
+    fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
+        let kept = self.kept(index)?;
+        let names = self.paired.names.iter().cloned();
+        Ok(names.zip(kept.positions.iter().copied()).collect())
+    }
+
+    fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
+        self.color(index)
+    }
+
+    fn background_count(&self) -> usize {
+        self.backgrounds.len()
+    }
+
+    fn read_background(&self, index: usize) -> Result<DepthImage, RecordingError> {
+        self.background(index)
+    }
+
+    /// A frame without depth may be left out, of which only the reading of compressed images tells,
+    /// and a damaged one where damage is passed over.
+    fn may_leave_out(&self, error: &RecordingError) -> bool {
+        let damaged = matches!(error, RecordingError::Invalid { .. });
+        matches!(error, RecordingError::EmptyFrame { .. }) || (self.partial && damaged)
+    }
+
+    fn in_millimetres(&self) -> bool {
+        self.range_topic().is_in_millimetres()
+    }
+
+    fn backgrounds_in_millimetres(&self) -> bool {
+        self.chosen.background.is_some_and(|number| self.topic(number).is_in_millimetres())
+    }
+
+    fn provenance(&self) -> &Provenance {
+        &self.provenance
     }
 }
 

@@ -1,14 +1,22 @@
 //! A recording that is a folder of files with a `recording.toml`.
 
 mod background;
-mod read;
+mod frame_files;
+mod none_fits;
 
 use crate::camera_info::CameraInfo;
+use crate::color::ColorImage;
 use crate::error::RecordingError;
-use crate::joints::Joints;
-use crate::manifest::{Manifest, RangeKind, RobotSection, Unit};
+use crate::frame::Frame;
+use crate::frame_source::FrameSource;
+use crate::joints::{Joints, read_joints};
+use crate::manifest::{Manifest, RobotSection};
 use crate::pattern::Pattern;
-use eyebolt_geometry::PinholeCamera;
+use crate::provenance::Provenance;
+use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_robot::JointPositions;
+use frame_files::FrameFiles;
+use none_fits::none_fits;
 use std::path::{Path, PathBuf};
 
 /// Name of the file that describes a folder.
@@ -17,12 +25,12 @@ pub(crate) const MANIFEST: &str = "recording.toml";
 /// A recording in a folder. Frames are read when asked for, from as many threads as wanted.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    manifest: Manifest,
-    camera: Option<CameraInfo>,
+    files: FrameFiles,
     names: Vec<String>,
     joints: Joints,
     /// Names of the backgrounds.
     backgrounds: Vec<String>,
+    provenance: Provenance,
 }
 
 impl Folder {
@@ -34,87 +42,157 @@ impl Folder {
     /// # Errors
     ///
     /// A description that is not understood, a camera or a table of joints that cannot be read, no
-    /// frames, no backgrounds where these are named, or a frame without its joints, mask or colour picture where these are named.
+    /// frames, no backgrounds where these are named, or a frame without its joints, mask or colour
+    /// picture where these are named.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let path = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
         let manifest = Manifest::read(&path)?;
-        let camera = manifest.camera_info.as_deref().map(CameraInfo::read).transpose()?;
+        let info = manifest.camera_info.as_deref().map(CameraInfo::read).transpose()?;
         let names = manifest.range.frames(manifest.range_field())?;
         if names.is_empty() {
             return Err(none_fits(&path, manifest.range_field(), &manifest.range));
         }
         let backgrounds = background::names(&manifest, &names)?;
         let joints = Joints::open(&manifest, &names)?;
-        let folder = Self { manifest, camera, names, joints, backgrounds };
-        folder.check_files()?;
-        Ok(folder)
-    }
-
-    /// The camera, if the description names its intrinsics; a recording of depth always has one.
-    pub fn camera(&self) -> Option<&PinholeCamera> {
-        self.camera.as_ref().map(|info| &info.camera)
-    }
-
-    /// Name of the camera's optical frame in ROS, where its file says it.
-    pub fn camera_frame_id(&self) -> Option<&str> {
-        self.camera.as_ref()?.frame_id.as_deref()
-    }
-
-    /// What the description says of the robot.
-    pub fn robot(&self) -> &RobotSection {
-        &self.manifest.robot
-    }
-
-    /// Names of the frames, numbers in their order.
-    pub fn frame_names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// Whether frames come with masks of the arm.
-    pub fn has_masks(&self) -> bool {
-        self.manifest.mask.is_some()
+        check_files(&manifest, &joints, &names)?;
+        let provenance = Provenance {
+            name: path.display().to_string(),
+            kind: "folder",
+            files: vec![path],
+            ..Provenance::default()
+        };
+        let files = FrameFiles { manifest, info };
+        Ok(Self { files, names, joints, backgrounds, provenance })
     }
 
     /// The file that describes it.
     pub(crate) fn path(&self) -> &Path {
-        &self.manifest.path
-    }
-
-    /// Whether depth is stored in whole millimetres.
-    pub(crate) fn in_millimetres(&self) -> bool {
-        let depth = self.manifest.kind == RangeKind::Depth;
-        depth && self.manifest.unit == Unit::Millimetres && self.manifest.range.extension() == "png"
+        &self.files.manifest.path
     }
 
     /// File of the colour picture of frame `index`, if there are pictures and that frame.
     pub fn color_path(&self, index: usize) -> Option<PathBuf> {
-        Some(self.manifest.color.as_ref()?.path(self.names.get(index)?))
+        Some(self.files.manifest.color.as_ref()?.path(self.names.get(index)?))
     }
 
-    /// Every frame must have every file that the description names.
-    fn check_files(&self) -> Result<(), RecordingError> {
-        let manifest = &self.manifest;
-        let check = |field: &str, pattern: Option<&Pattern>, remedy: &str| {
-            let Some(pattern) = pattern else { return Ok(()) };
-            let lacking = self.names.iter().find(|name| !pattern.path(name).is_file());
-            lacking.map_or(Ok(()), |name| {
-                let problem = format!(
-                    "frame {name} has {} but the file {} is missing",
-                    manifest.range.path(name).display(),
-                    pattern.path(name).display()
-                );
-                Err(RecordingError::invalid(&manifest.path, field, problem, remedy))
-            })
-        };
-        let rest = "Add the file, move the frame away, or remove the key";
-        check("frames.joints", self.joints.files(), "Add the file, or move the frame away")?;
-        check("frames.mask", manifest.mask.as_ref(), rest)?;
-        check("frames.color", manifest.color.as_ref(), rest)
+    fn name(&self, index: usize) -> Result<&str, RecordingError> {
+        self.names.get(index).map(String::as_str).ok_or_else(|| self.no_frame(index))
+    }
+
+    fn no_frame(&self, index: usize) -> RecordingError {
+        let path = self.path().to_path_buf();
+        RecordingError::NoSuchFrame { path, index, count: self.names.len() }
     }
 }
 
-fn none_fits(path: &Path, field: &str, files: &Pattern) -> RecordingError {
-    let problem =
-        format!("no file in {} is called \"{}\"", files.folder().display(), files.file_name());
-    RecordingError::invalid(path, field, problem, "Correct the pattern, or copy the files there")
+impl FrameSource for Folder {
+    /// The camera, if the description names its intrinsics; a recording of depth always has one.
+    fn camera(&self) -> Option<&PinholeCamera> {
+        self.files.camera()
+    }
+
+    fn camera_frame_id(&self) -> Option<&str> {
+        self.files.info.as_ref()?.frame_id.as_deref()
+    }
+
+    fn robot(&self) -> &RobotSection {
+        &self.files.manifest.robot
+    }
+
+    /// Names of the frames, numbers in their order.
+    fn frame_names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn has_masks(&self) -> bool {
+        self.files.manifest.mask.is_some()
+    }
+
+    /// # Errors
+    ///
+    /// No such frame; a file that cannot be read, is damaged, or does not fit the camera, the
+    /// description or the range image; values that cannot be in the unit claimed; a frame that saw
+    /// nothing; an empty mask.
+    fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
+        let name = self.name(index)?;
+        let range = self.files.range(name)?;
+        let mask = self.files.mask(name, &range)?;
+        let joints = self.read_joints(index)?;
+        Ok(Frame { name: name.to_owned(), range, mask, joints })
+    }
+
+    /// # Errors
+    ///
+    /// No such frame; a file that cannot be read or is damaged; a joint of the description that is
+    /// not there, or is there twice; a position that is not finite or cannot be in radians.
+    fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
+        let name = self.name(index)?;
+        match &self.joints {
+            Joints::Table(rows) => rows.get(index).cloned().ok_or_else(|| self.no_frame(index)),
+            Joints::PerFrame(pattern) => {
+                let names = self.files.manifest.joint_names.as_deref();
+                read_joints(&pattern.path(name), pattern.extension(), names)
+            }
+        }
+    }
+
+    /// # Errors
+    ///
+    /// No such frame; a file that cannot be read, is damaged, or is not of the camera's size.
+    fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
+        self.files.color(self.name(index)?)
+    }
+
+    fn background_count(&self) -> usize {
+        self.backgrounds.len()
+    }
+
+    /// # Errors
+    ///
+    /// No such background; a file that cannot be read, is damaged, is not of the camera's size or
+    /// cannot be in the unit claimed.
+    fn read_background(&self, index: usize) -> Result<DepthImage, RecordingError> {
+        let name = self.backgrounds.get(index);
+        let read = name.map_or(Ok(None), |name| self.files.background(name))?;
+        read.ok_or_else(|| {
+            let (path, count) = (self.path().to_path_buf(), self.background_count());
+            RecordingError::NoSuchBackground { path, index, count }
+        })
+    }
+
+    fn in_millimetres(&self) -> bool {
+        self.files.in_millimetres()
+    }
+
+    fn backgrounds_in_millimetres(&self) -> bool {
+        self.files.backgrounds_in_millimetres()
+    }
+
+    fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+}
+
+/// Every frame must have every file that the description names.
+fn check_files(
+    manifest: &Manifest,
+    joints: &Joints,
+    names: &[String],
+) -> Result<(), RecordingError> {
+    let check = |field: &str, pattern: Option<&Pattern>, remedy: &str| {
+        let Some(pattern) = pattern else { return Ok(()) };
+        let lacking = names.iter().find(|name| !pattern.path(name).is_file());
+        lacking.map_or(Ok(()), |name| {
+            let problem = format!(
+                "frame {name} has {} but the file {} is missing",
+                manifest.range.path(name).display(),
+                pattern.path(name).display()
+            );
+            Err(RecordingError::invalid(&manifest.path, field, problem, remedy))
+        })
+    };
+    let rest = "Add the file, move the frame away, or remove the key";
+    check("frames.joints", joints.files(), "Add the file, or move the frame away")?;
+    check("frames.mask", manifest.mask.as_ref(), rest)?;
+    check("frames.color", manifest.color.as_ref(), rest)
 }

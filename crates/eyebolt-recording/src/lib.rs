@@ -50,9 +50,12 @@ mod error;
 mod file;
 mod folder;
 mod frame;
+mod frame_names;
+mod frame_source;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
+mod in_memory;
 mod joints;
 mod manifest;
 mod mask;
@@ -60,6 +63,7 @@ mod message;
 mod npy;
 mod pattern;
 mod png_image;
+mod provenance;
 mod recording;
 mod truth;
 mod unit_check;
@@ -69,17 +73,17 @@ mod write;
 pub(crate) const METADATA_NAME: &str = "eyebolt";
 
 pub use bag::{BagKind, is_bag};
-pub use bag_recording::{
-    BagOptions, BagRecording, ClockOffset, DropReason, DroppedFrame, TopicSummary, list_topics,
-    static_transforms,
-};
+pub use bag_recording::{BagOptions, BagRecording, list_topics, static_transforms};
 pub use camera_info::CameraInfo;
 pub use color::ColorImage;
 pub use error::RecordingError;
 pub use folder::Folder;
 pub use frame::{Frame, Range};
+pub use frame_source::FrameSource;
+pub use in_memory::{InMemory, depth_from_millimetres};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
+pub use provenance::{ClockOffset, DropReason, DroppedFrame, Provenance, TopicSummary};
 pub use recording::Recording;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use write::{

@@ -10,7 +10,6 @@ mod npy;
 mod png;
 mod recording_writer;
 
-pub(crate) use folder::check_names;
 pub use folder::write_folder;
 pub use mcap::{McapWriter, write_static_transforms};
 pub(crate) use recording_writer::BACKGROUND_TOPIC;

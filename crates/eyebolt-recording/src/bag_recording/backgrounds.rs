@@ -3,14 +3,10 @@
 use super::BagRecording;
 use super::scan::{Content, FrameEntry, Scan, Unfit};
 use crate::error::RecordingError;
+use crate::frame_source::FrameSource;
 use eyebolt_geometry::DepthImage;
 
 impl BagRecording {
-    /// Number of depth images of the scene without the robot.
-    pub fn background_count(&self) -> usize {
-        self.backgrounds.len()
-    }
-
     /// Reads background `index`, counted from 0 in order of time: depth of the camera's size in
     /// metres, 0 where there is none.
     ///
@@ -18,18 +14,13 @@ impl BagRecording {
     ///
     /// No such background; a message that cannot be read, does not fit the camera or cannot be in
     /// its unit.
-    pub fn read_background(&self, index: usize) -> Result<DepthImage, RecordingError> {
+    pub(super) fn background(&self, index: usize) -> Result<DepthImage, RecordingError> {
         let (number, entry) =
             self.chosen.background.zip(self.backgrounds.get(index)).ok_or_else(|| {
                 let (path, count) = (self.path.clone(), self.background_count());
                 RecordingError::NoSuchBackground { path, index, count }
             })?;
         self.depth_image(self.topic(number), entry)
-    }
-
-    /// Whether backgrounds are stored in whole millimetres.
-    pub(crate) fn backgrounds_in_millimetres(&self) -> bool {
-        self.chosen.background.is_some_and(|number| self.topic(number).is_in_millimetres())
     }
 
     /// Backgrounds are depth images, for which there must be a camera.

@@ -4,6 +4,7 @@ use super::BagRecording;
 use super::scan::is_static;
 use crate::bag::{Bag, Message, Topic};
 use crate::error::RecordingError;
+use crate::frame_source::FrameSource;
 use crate::write::BACKGROUND_TOPIC;
 use eyebolt_geometry::PinholeCamera;
 use std::collections::BTreeMap;
@@ -61,11 +62,6 @@ impl BagRecording {
         let camera = self.camera().filter(|_| self.camera_given)?;
         let above = self.range_topic().name.rsplit_once('/').map_or("", |(above, _)| above);
         Some((camera, format!("{above}/camera_info")))
-    }
-
-    /// Whether depth is stored in whole millimetres.
-    pub(crate) fn in_millimetres(&self) -> bool {
-        self.range_topic().is_in_millimetres()
     }
 
     /// What is known of the recording that no message says.

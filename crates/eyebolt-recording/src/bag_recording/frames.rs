@@ -6,6 +6,7 @@ use crate::bag::Locator;
 use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::frame::{Frame, Range};
+use crate::frame_source::FrameSource;
 use crate::manifest::{CloudFrame, Unit};
 use crate::message::{
     CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, types,
@@ -24,7 +25,7 @@ impl BagRecording {
     ///
     /// No such frame; a message that cannot be read, does not fit the camera or cannot be in its
     /// unit; an empty mask.
-    pub fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
+    pub(super) fn frame(&self, index: usize) -> Result<Frame, RecordingError> {
         let joints = self.read_joints(index)?;
         let entry = self.entry(index)?;
         let range = self.range(&entry)?;
@@ -38,7 +39,7 @@ impl BagRecording {
     /// # Errors
     ///
     /// No such frame, or a message that cannot be read.
-    pub fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
+    pub(super) fn color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         let entry = self.entry(index)?;
         let Some(number) = self.chosen.color else { return Ok(None) };
         let Some(picture) = nearest(&self.colors, entry.stamp_ns) else { return Ok(None) };
@@ -109,13 +110,6 @@ impl BagRecording {
             path: self.path.clone(),
             field: frame_field(self.range_topic(), entry),
         }
-    }
-
-    /// Whether a frame that fails so may be left out: one without depth, of which only the reading
-    /// of compressed images tells, or a damaged one where damage is passed over.
-    pub fn may_leave_out(&self, error: &RecordingError) -> bool {
-        let damaged = matches!(error, RecordingError::Invalid { .. });
-        matches!(error, RecordingError::EmptyFrame { .. }) || (self.partial && damaged)
     }
 
     fn check_depth(

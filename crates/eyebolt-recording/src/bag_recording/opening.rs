@@ -2,15 +2,17 @@
 
 use super::choose::{Chosen, picture_of};
 use super::scan::{Content, FrameEntry, Scan, TopicScan};
-use super::stamps::{self, ClockOffset};
+use super::stamps;
 use super::track::Track;
 use super::{BagOptions, BagRecording, pair, skew};
 use crate::bag::Bag;
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
+use crate::frame_names::check_names;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, WireReader, types};
-use crate::write::{BACKGROUND_TOPIC, check_names};
+use crate::provenance::ClockOffset;
+use crate::write::BACKGROUND_TOPIC;
 
 impl BagRecording {
     /// Whether the frames are of a rectified picture. By ROS's convention, these have a word for it
@@ -78,7 +80,7 @@ impl BagRecording {
             known.cloned().unwrap_or_else(|| index.to_string())
         };
         self.names = paired.kept.iter().map(|kept| name(kept.index)).collect();
-        self.clock_offset = offset;
+        self.provenance.clock_offset = offset;
         self.paired = paired;
         Ok(())
     }

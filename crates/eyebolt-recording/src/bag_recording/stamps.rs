@@ -1,5 +1,7 @@
 //! What the time stamps of a topic tell of its clock.
 
+use crate::provenance::ClockOffset;
+
 /// Stamps of one topic, against the times at which its messages were written down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stamps {
@@ -63,20 +65,6 @@ impl Stamps {
         let margin = sorted.len() / 20;
         Some((*sorted.get(margin)?, *sorted.get(sorted.len().checked_sub(1 + margin)?)?))
     }
-}
-
-/// How the clocks behind two topics differ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClockOffset {
-    /// To be added to stamps of depth for the clock of the joints, seconds.
-    pub seconds: f64,
-    /// By how much `seconds` may be wrong.
-    pub uncertainty_s: f64,
-    /// Whether it was added: the motion tells it, or the clocks are so far apart that they are two.
-    pub applied: bool,
-    /// Whether the motion that depth and joints both saw tells it; otherwise, the times at which
-    /// both were recorded do.
-    pub seen: bool,
 }
 
 /// Delays differ by so much between two topics of one clock, for want of a better word: transport.

@@ -6,37 +6,11 @@ use super::{BagOptions, BagRecording};
 use crate::bag::Bag;
 use crate::error::RecordingError;
 use crate::message::StaticTransform;
-use serde::Serialize;
+use crate::provenance::TopicSummary;
 use std::path::Path;
 
-/// A topic of a bag, for people.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TopicSummary {
-    /// Name.
-    pub name: String,
-    /// Type of its messages, as in `sensor_msgs/Image`.
-    pub message_type: String,
-    /// What the messages are to the recording, where that is known: `depth`, `joints`...
-    pub role: Option<&'static str>,
-    /// Number of messages.
-    pub count: u64,
-    /// Bytes of all messages.
-    pub bytes: u64,
-    /// Messages a second, of topics with more than one.
-    pub rate_hz: Option<f64>,
-    /// The frame that its messages are in.
-    pub frame_id: Option<String>,
-    /// What is wrong with it, in words.
-    pub problems: Vec<String>,
-}
-
 impl BagRecording {
-    /// All topics, sorted by name.
-    pub fn topics(&self) -> Vec<TopicSummary> {
-        (0..self.scan.topics.len()).filter_map(|number| self.summary(number)).collect()
-    }
-
-    fn summary(&self, number: usize) -> Option<TopicSummary> {
+    pub(super) fn summary(&self, number: usize) -> Option<TopicSummary> {
         let topic = self.scan.topics.get(number)?;
         Some(summary(topic, self.role(number)))
     }

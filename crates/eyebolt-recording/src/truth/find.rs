@@ -60,6 +60,7 @@ pub(crate) fn text_of(recording: &Recording) -> Result<Option<String>, Recording
     match recording {
         Recording::Folder(folder) => in_folder(folder.path().parent().unwrap_or(Path::new(""))),
         Recording::Bag(recording) => of_bag(recording.messages(), recording.path()),
+        Recording::Other(_) => Ok(None),
     }
 }
 

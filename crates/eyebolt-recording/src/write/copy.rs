@@ -8,6 +8,7 @@ use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
 use crate::camera_info::camera_info_message;
 use crate::error::RecordingError;
+use crate::frame_source::FrameSource;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
     JointStateMessage, WireProblem, WireReader, WireWriter, text, transforms, types,

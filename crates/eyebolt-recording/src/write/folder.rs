@@ -3,7 +3,6 @@
 use super::npy::npy;
 use super::{WriteError, WriteProgress, WriteRobot, png, tell};
 use crate::camera_info::camera_info_message;
-use crate::error::RecordingError;
 use crate::folder::MANIFEST;
 use crate::frame::{Frame, Range};
 use crate::message::{CameraInfoMessage, Header};
@@ -11,7 +10,6 @@ use crate::recording::Recording;
 use crate::truth;
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
-use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
@@ -248,18 +246,4 @@ fn manifest(recording: &Recording, robot: &WriteRobot, found: Found) -> String {
         }
     }
     text
-}
-
-/// The files of a folder are named after its frames, so these must be names of files, each once.
-pub(crate) fn check_names(path: &Path, names: &[String]) -> Result<(), RecordingError> {
-    let mut known = BTreeSet::new();
-    for name in names {
-        if !name.is_empty() && !name.contains(['/', '\\', '\0']) && known.insert(name.as_str()) {
-            continue;
-        }
-        let problem = format!("{name:?} cannot be part of the name of a file, or is there twice");
-        let remedy = "Write the file again";
-        return Err(RecordingError::invalid(path, "metadata: frame_names", problem, remedy));
-    }
-    Ok(())
 }

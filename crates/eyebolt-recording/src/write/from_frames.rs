@@ -1,4 +1,4 @@
-//! Frames of a folder as messages.
+//! Frames of a folder, or of another source, as messages.
 
 use super::recording_writer::{Described, RecordingWriter, SCHEMA};
 use super::{WriteError, WriteProgress, WriteRobot, tell};
@@ -25,14 +25,14 @@ pub(super) fn metadata(recording: &Recording, robot: &WriteRobot) -> BTreeMap<St
     };
     add("base", robot.base.as_ref().or(known.base.as_ref()));
     add("end_effector", robot.end_effector.as_ref().or(known.end_effector.as_ref()));
-    if let Recording::Folder(folder) = recording {
-        let names = serde_json::to_string(folder.frame_names());
+    if recording.bag().is_none() {
+        let names = serde_json::to_string(recording.frame_names());
         add("frame_names", names.ok().as_ref());
     }
     values
 }
 
-/// Writes every background and every frame of `recording`, which is a folder, and its truth.
+/// Writes every background and every frame of `recording`, which is no bag, and its truth.
 pub(super) fn write(
     recording: &Recording,
     robot: &WriteRobot,

@@ -2,7 +2,7 @@
 
 use super::sample::{Bag, CLOUD, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_NS, assert_says};
 use super::writer;
-use eyebolt_recording::RecordingError;
+use eyebolt_recording::{FrameSource, RecordingError};
 
 #[test]
 fn images_without_depth_are_dropped() {

@@ -1,7 +1,8 @@
 //! Where the joints of all publishers are at one time.
 
 use super::super::track::Track;
-use super::{DropReason, SMALLEST_LIMIT};
+use super::SMALLEST_LIMIT;
+use crate::provenance::DropReason;
 use std::collections::BTreeSet;
 
 /// Joints of the same frame rate as the frames need not be nearer than this, nanoseconds.

@@ -1,0 +1,45 @@
+//! Where frames come from, and what was found out on the way.
+
+mod clock_offset;
+mod dropped_frame;
+mod topic_summary;
+
+pub use clock_offset::ClockOffset;
+pub use dropped_frame::{DropReason, DroppedFrame};
+pub use topic_summary::TopicSummary;
+
+use std::path::PathBuf;
+
+/// Where the frames of a source come from, and what was found out on the way: plain data, for
+/// people. What a source knows nothing of is empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Provenance {
+    /// Name of the source, for messages: the path that it was opened by, if there is one.
+    pub name: String,
+    /// What kind of source it is, in a word or two: `folder`, `MCAP`...
+    pub kind: &'static str,
+    /// The files that it was read from; of a folder, the one that describes it.
+    pub files: Vec<PathBuf>,
+    /// Frames that do not take part, with the reason.
+    pub dropped: Vec<DroppedFrame>,
+    /// How the clocks of depth and joints differ; `None` if one of them sets no stamps.
+    pub clock_offset: Option<ClockOffset>,
+    /// How far a joint may move while a frame is taken, radians or metres.
+    pub motion_limit: Option<f64>,
+    /// Damaged parts that were passed over, in words.
+    pub damage: Vec<String>,
+    /// All topics, sorted by name.
+    pub topics: Vec<TopicSummary>,
+}
+
+/// Nothing known.
+pub(crate) static UNKNOWN: Provenance = Provenance {
+    name: String::new(),
+    kind: "",
+    files: Vec::new(),
+    dropped: Vec::new(),
+    clock_offset: None,
+    motion_limit: None,
+    damage: Vec::new(),
+    topics: Vec::new(),
+};
