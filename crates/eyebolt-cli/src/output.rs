@@ -1,6 +1,11 @@
 //! Files that appear whole or not at all, and the only places that print.
 
+mod replace;
+#[cfg(test)]
+mod tests;
+
 use anyhow::{Result, anyhow, bail};
+use replace::{NotReplaced, Rename, replace};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -140,11 +145,22 @@ pub fn write_through(
     persisted.map(drop).map_err(|error| failed(error.error))
 }
 
-/// A folder that appears whole, with whatever `fill` writes into it. If it fails, nothing is left.
+/// A folder that appears whole, with whatever `fill` writes into it. If it fails, nothing is left,
+/// and what was there still is.
 pub fn write_folder_whole(
     path: &Path,
     force: bool,
     fill: impl FnOnce(&Path) -> Result<()>,
+) -> Result<()> {
+    write_folder_with(path, force, fill, &mut |from, to| std::fs::rename(from, to))
+}
+
+/// As [`write_folder_whole`], with the operating system's way to rename.
+fn write_folder_with(
+    path: &Path,
+    force: bool,
+    fill: impl FnOnce(&Path) -> Result<()>,
+    rename: &mut Rename<'_>,
 ) -> Result<()> {
     refuse_existing(path, force)?;
     let failed = |error: std::io::Error| cannot_write(path, &error);
@@ -157,13 +173,23 @@ pub fn write_folder_whole(
     fill(new.path())?;
     // What is replaced goes last, when the new one is there.
     let old = builder.tempdir_in(above).map_err(failed)?;
-    if path.exists() {
-        std::fs::rename(path, old.path().join("replaced")).map_err(failed)?;
+    match replace(new.path(), path, &old.path().join("replaced"), rename) {
+        Ok(()) => {
+            // Under its new name, nothing removes it any more.
+            let _ = new.keep();
+            Ok(())
+        }
+        Err(NotReplaced { cause, left_at: None }) => Err(failed(cause)),
+        Err(NotReplaced { cause, left_at: Some(left_at) }) => {
+            let _ = old.keep();
+            Err(anyhow!(
+                "{}: cannot write: {}. What was there is in {} now: move it back",
+                path.display(),
+                cause.kind(),
+                left_at.display()
+            ))
+        }
     }
-    std::fs::rename(new.path(), path).map_err(failed)?;
-    // Under its new name, nothing removes it any more.
-    let _ = new.keep();
-    Ok(())
 }
 
 /// A file in `folder` that others may read, as results may; temporary ones are private by default.

@@ -4,6 +4,7 @@ mod float;
 mod npy;
 mod pcd;
 mod ply;
+mod stored;
 mod text;
 
 use crate::depth::{LEAVE_OUT, scaled};
@@ -14,27 +15,7 @@ use crate::unit_check::check_unit;
 use eyebolt_geometry::Cloud;
 use nalgebra::Point3;
 use std::path::Path;
-
-const FIELD: &str = "cloud";
-
-/// Most points of a PCD or PLY file: twice what a camera with 4K gives.
-const MOST_POINTS: usize = 1 << 24;
-
-/// Largest PCD or PLY file, and most that a compressed one holds, bytes. Both are in memory at
-/// once; it is 16 bytes for each of the most points, or 48 for each of 5 million.
-const LARGEST: u64 = 256 << 20;
-
-/// Most bytes before the data of a PCD or PLY file.
-const LARGEST_HEADER: usize = 64 << 10;
-
-/// A cloud in the unit and the frame of its file.
-#[derive(Debug)]
-struct Stored {
-    /// Three coordinates for every point.
-    xyz: Vec<f32>,
-    /// Width and height, if the points are in the order of an image.
-    grid: Option<(u32, u32)>,
-}
+use stored::{FIELD, LARGEST, invalid};
 
 /// Reads a cloud stored in `unit` and `frame`; the points returned are in the optical frame.
 pub(crate) fn read_cloud(
@@ -60,24 +41,6 @@ pub(crate) fn read_cloud(
         Some((width, height)) => Cloud::organised(width, height, points)
             .map_err(|error| invalid(path, error.to_string(), "Store the whole cloud")),
     }
-}
-
-fn invalid(path: &Path, problem: impl Into<String>, remedy: &str) -> RecordingError {
-    RecordingError::invalid(path, FIELD, problem, remedy)
-}
-
-/// The file has not the bytes that its header tells.
-fn damaged(path: &Path, problem: impl Into<String>) -> RecordingError {
-    invalid(path, problem, "The file is damaged or cut short: copy or write it again")
-}
-
-/// Refuses more points than are read here.
-fn check_count(path: &Path, count: usize) -> Result<(), RecordingError> {
-    if count <= MOST_POINTS {
-        return Ok(());
-    }
-    let problem = format!("the header tells of {count} points, more than {MOST_POINTS}");
-    Err(invalid(path, problem, "Name the right file, or thin the cloud out"))
 }
 
 /// The point in the optical frame; NaN where there is none.

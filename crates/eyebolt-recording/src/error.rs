@@ -4,6 +4,9 @@ use eyebolt_robot::Input;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// What is wrong with a frame that saw nothing.
+const NO_DEPTH: &str = "no pixel has depth";
+
 /// Why a recording, or a frame of it, cannot be read. The text names file, field and remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -35,7 +38,7 @@ pub enum RecordingError {
         input: Option<Input>,
     },
     /// A frame saw nothing.
-    #[error("{path}: {field}: no pixel has depth. Record it again, or leave it out", path = path.display())]
+    #[error("{path}: {field}: {NO_DEPTH}. Record it again, or leave it out", path = path.display())]
     EmptyFrame {
         /// The recording.
         path: PathBuf,
@@ -111,9 +114,8 @@ impl RecordingError {
         match self {
             Self::Invalid { problem, .. } => problem.clone(),
             Self::Read { cause, .. } => cause.to_string(),
-            Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } | Self::EmptyFrame { .. } => {
-                self.to_string()
-            }
+            Self::EmptyFrame { .. } => NO_DEPTH.to_owned(),
+            Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } => self.to_string(),
         }
     }
 

@@ -61,6 +61,7 @@ mod manifest;
 mod mask;
 mod message;
 mod npy;
+mod own_metadata;
 mod pattern;
 mod png_image;
 mod provenance;
@@ -68,9 +69,6 @@ mod recording;
 mod truth;
 mod unit_check;
 mod write;
-
-/// Name of the metadata record with what eyebolt knows of a recording that it wrote.
-pub(crate) const METADATA_NAME: &str = "eyebolt";
 
 pub use bag::{BagKind, is_bag};
 pub use bag_recording::{BagOptions, BagRecording, list_topics, static_transforms};

@@ -92,6 +92,18 @@ fn a_recording_is_not_written_over_itself() {
 }
 
 #[test]
+fn the_robot_that_is_given_replaces_the_bags_own() {
+    let desk = Desk::new();
+    let (own, mcap, folder) = (desk.file("a.mcap"), desk.file("b.mcap"), desk.file("folder"));
+    assert_eq!(convert(&RECORDING, &own, &[]).code, Some(0));
+    let urdf = RECORDING.join("other.urdf");
+    assert_eq!(convert(&own, &mcap, &["--robot", text(&urdf)]).code, Some(0));
+    assert_eq!(convert(&mcap, &folder, &[]).code, Some(0));
+    let written = fs::read_to_string(folder.join("robot.urdf")).unwrap();
+    assert_eq!(written, fs::read_to_string(urdf).unwrap());
+}
+
+#[test]
 fn backgrounds_and_truth_go_with_it() {
     let desk = Desk::new();
     let recording = desk.file("recording");

@@ -1,63 +1,21 @@
 //! A bag of one file or several, of whatever kind.
 
-mod files;
-
-pub use files::is_bag;
-
+use super::bag_file::BagFile;
+use super::bytes::{Bytes, ReadSeek};
+use super::files;
+use super::kind::{BagKind, Magic, magic};
+use super::locator::Locator;
 use super::mcap::McapFile;
+use super::message::Message;
+use super::remedy::or_partial;
 use super::ros1::Ros1Bag;
 use super::sqlite::SqliteFile;
-use super::zstd::Unzipper;
-use super::{BagFile, Message, Place, zstd};
+use super::zstd::{self, Unzipper};
 use crate::error::RecordingError;
-use files::{METADATA, Magic, magic};
+use crate::own_metadata;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
-
-/// What wrote a bag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BagKind {
-    /// MCAP.
-    Mcap,
-    /// ROS 2's bags in SQLite.
-    Sqlite,
-    /// ROS 1's bags.
-    Ros1,
-}
-
-impl BagKind {
-    /// Its name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mcap => "MCAP",
-            Self::Sqlite => "rosbag2 (SQLite)",
-            Self::Ros1 => "ROS 1 bag",
-        }
-    }
-}
-
-/// Where a message lies: which file, and where in it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(test, derive(Default))]
-pub(crate) struct Locator {
-    file: u32,
-    place: Place,
-}
-
-impl Locator {
-    /// Number of the file among those of the bag.
-    pub(crate) fn file(self) -> u32 {
-        self.file
-    }
-
-    /// Where in its file.
-    #[cfg(test)]
-    pub(super) fn place(self) -> Place {
-        self.place
-    }
-}
 
 /// A bag of one file or several.
 #[derive(Debug)]
@@ -74,49 +32,65 @@ impl Bag {
     /// Opens the bag that `path` is, or that lies in the folder `path`. Files compressed as a whole
     /// are decompressed to the folder `scratch` for as long as the bag is open.
     pub(crate) fn open(path: &Path, scratch: &Path) -> Result<Self, RecordingError> {
-        let paths = files::of_bag(path)?;
-        let mut bag =
-            Self { files: Vec::new(), kind: BagKind::Mcap, metadata: None, _unzipped: Vec::new() };
-        for path in &paths {
-            bag.add(path, scratch)?;
+        let mut bag = Self::without_files();
+        for path in files::of_bag(path)? {
+            bag.add(Bytes::open(&path)?, scratch)?;
         }
         if bag.files.is_empty() {
-            let problem = format!("no bag is in it, or listed in its {METADATA}");
+            let problem = format!("no bag is in it, or listed in its {}", files::METADATA);
             let remedy = "Give the folder or file that was recorded";
             return Err(RecordingError::invalid(path, "bag", problem, remedy));
         }
         Ok(bag)
     }
 
-    fn add(&mut self, path: &Path, scratch: &Path) -> Result<(), RecordingError> {
-        let file = if magic(path) == Some(Magic::Zstd) {
-            let unzipped = zstd::unzip_file(path, scratch, zstd::FILE_LIMIT)?;
-            let file = self.file(unzipped.path()).map_err(|error| error.told_of(path))?;
+    /// The bag that `reader` reads, from its first byte to its last: MCAP or a bag of ROS 1, in
+    /// memory or wherever else. Errors call it `name`. What is compressed as a whole is
+    /// decompressed to the folder `scratch` for as long as the bag is open.
+    ///
+    /// SQLite reads files for itself, so that its bags are an error here.
+    pub(crate) fn from_reader(
+        name: &Path,
+        reader: impl ReadSeek + 'static,
+        scratch: &Path,
+    ) -> Result<Self, RecordingError> {
+        let mut bag = Self::without_files();
+        bag.add(Bytes::from_reader(name, reader)?, scratch)?;
+        Ok(bag)
+    }
+
+    fn without_files() -> Self {
+        Self { files: Vec::new(), kind: BagKind::Mcap, metadata: None, _unzipped: Vec::new() }
+    }
+
+    fn add(&mut self, bytes: Bytes, scratch: &Path) -> Result<(), RecordingError> {
+        let path = bytes.path().to_path_buf();
+        let file = if kind(&bytes) == Some(Magic::Zstd) {
+            let unzipped = zstd::unzip_file(&bytes, scratch, zstd::FILE_LIMIT)?;
+            let file = self.file(Bytes::open(unzipped.path())?);
             self._unzipped.push(unzipped);
-            file
+            file.map_err(|error| error.told_of(&path))?
         } else {
-            self.file(path)?
+            self.file(bytes)?
         };
-        self.files.push((file, path.to_path_buf()));
+        self.files.push((file, path));
         Ok(())
     }
 
-    /// The bag at `path`, which is not compressed as a whole.
-    fn file(&mut self, path: &Path) -> Result<Box<dyn BagFile>, RecordingError> {
-        let Some(Magic::Bag(kind)) = magic(path) else {
-            // Reading it tells whether it is there at all.
-            File::open(path).map_err(|cause| RecordingError::unreadable_bag(path, cause))?;
+    /// The bag of these bytes, which is not compressed as a whole.
+    fn file(&mut self, bytes: Bytes) -> Result<Box<dyn BagFile>, RecordingError> {
+        let Some(Magic::Bag(kind)) = kind(&bytes) else {
             let problem = "the file is neither MCAP nor SQLite nor a ROS 1 bag";
             let remedy = "Give a bag, or a folder with a recording.toml";
-            return Err(RecordingError::invalid(path, "kind of file", problem, remedy));
+            return Err(RecordingError::invalid(bytes.path(), "kind of file", problem, remedy));
         };
         self.kind = kind;
         let file: Box<dyn BagFile> = match kind {
-            BagKind::Mcap => Box::new(McapFile::open(path)?),
-            BagKind::Sqlite => Box::new(SqliteFile::open(path)?),
-            BagKind::Ros1 => Box::new(Ros1Bag::open(path)?),
+            BagKind::Mcap => Box::new(McapFile::new(bytes)),
+            BagKind::Sqlite => Box::new(SqliteFile::open(&sqlite_path(bytes)?)?),
+            BagKind::Ros1 => Box::new(Ros1Bag::new(bytes)?),
         };
-        self.metadata = file.metadata(crate::METADATA_NAME)?.or(self.metadata.take());
+        self.metadata = file.metadata(own_metadata::NAME)?.or(self.metadata.take());
         Ok(file)
     }
 
@@ -158,7 +132,7 @@ impl Bag {
         for (number, (file, path)) in (0..).zip(&self.files) {
             let damaged = |error: RecordingError| (*damage.borrow_mut())(error.told_of(path));
             let mut with_file = |message: &Message<'_>| {
-                let locator = Locator { file: number, place: message.place };
+                let locator = Locator::new(number, message.place);
                 if !zipped(message.data) {
                     return each(locator, message);
                 }
@@ -167,7 +141,7 @@ impl Bag {
                     Err(problem) => {
                         let time_s = message.log_time_ns as f64 * 1e-9;
                         let field = format!("{} of {time_s:.3} s", message.topic.name);
-                        let remedy = "Copy the bag again, or give --partial to go without it";
+                        let remedy = or_partial("Copy the bag again", "to go without it");
                         damaged(RecordingError::invalid(path, field, problem, remedy))
                     }
                 }
@@ -180,9 +154,9 @@ impl Bag {
 
     /// The bytes of a message.
     pub(crate) fn read(&self, locator: Locator) -> Result<Vec<u8>, RecordingError> {
-        let file = self.files.get(locator.file as usize);
+        let file = self.files.get(locator.file() as usize);
         let (file, path) = file.expect("a locator is of the bag that told it");
-        let data = file.read(locator.place).map_err(|error| error.told_of(path))?;
+        let data = file.read(locator.place()).map_err(|error| error.told_of(path))?;
         if !zipped(&data) {
             return Ok(data);
         }
@@ -195,6 +169,20 @@ impl Bag {
             }
         }
     }
+}
+
+/// SQLite opens files by itself.
+fn sqlite_path(bytes: Bytes) -> Result<PathBuf, RecordingError> {
+    let name = bytes.path().to_path_buf();
+    bytes.into_file_path().ok_or_else(|| {
+        let problem = "bags in SQLite are read from files only";
+        RecordingError::invalid(&name, "kind of file", problem, "Give the file's path")
+    })
+}
+
+/// What the first bytes tell. Bytes that cannot be read are of no kind.
+fn kind(bytes: &Bytes) -> Option<Magic> {
+    magic(bytes.reader(0)).ok().flatten()
 }
 
 /// Whether a message is compressed by itself, as ROS 2 does it on demand in any kind of file.

@@ -15,15 +15,16 @@ mod source;
 #[cfg(test)]
 mod tests;
 
+use super::bag_file::{BagFile, LARGEST_CHUNK};
+use super::bytes::Bytes;
 use super::cache::ChunkCache;
-use super::{BagFile, LARGEST_CHUNK, Message, Place};
+use super::message::{Message, Place};
 use crate::error::RecordingError;
 use chunk::Chunk;
 use fault::{Fault, Taker};
 use header::{Header, Op};
 use scan::Scan;
 use source::Source;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
@@ -31,22 +32,22 @@ const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
 /// A file of a ROS 1 recorder.
 #[derive(Debug)]
 pub(crate) struct Ros1Bag {
-    path: PathBuf,
+    bytes: Bytes,
     cache: ChunkCache,
 }
 
 impl Ros1Bag {
-    /// The bag at `path`. Errors if the file cannot be read or does not begin as one.
-    pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
-        let mut source = Source::open(path)?;
+    /// The bag of these bytes. Errors if they cannot be read or do not begin as one.
+    pub(crate) fn new(bytes: Bytes) -> Result<Self, RecordingError> {
+        let mut source = Source::new(&bytes);
         let mut magic = Vec::new();
         let length = source.end().min(MAGIC.len() as u64);
         source.fill(&mut magic, length)?;
         if magic == MAGIC {
-            return Ok(Self { path: path.to_path_buf(), cache: ChunkCache::default() });
+            return Ok(Self { bytes, cache: ChunkCache::default() });
         }
         let invalid = |problem: &str, remedy| {
-            Err(RecordingError::invalid(path, "the first line", problem, remedy))
+            Err(RecordingError::invalid(bytes.path(), "the first line", problem, remedy))
         };
         match magic.strip_prefix(b"#ROSBAG V").and_then(|rest| rest.strip_suffix(b"\n")) {
             Some(version) => invalid(
@@ -58,7 +59,7 @@ impl Ros1Bag {
     }
 
     fn read_bytes(&self, start: u64, length: u32) -> Result<Vec<u8>, Fault> {
-        let mut source = Source::open(&self.path)?;
+        let mut source = Source::new(&self.bytes);
         let length = u64::from(length);
         if length > LARGEST_CHUNK || start.saturating_add(length) > source.end() {
             return Err("it is not in the file".into());
@@ -87,7 +88,7 @@ impl Ros1Bag {
 
     /// The contents of the chunk whose record begins at byte `chunk`.
     fn decompress(&self, chunk: u64) -> Result<Vec<u8>, Fault> {
-        let mut source = Source::open(&self.path)?;
+        let mut source = Source::new(&self.bytes);
         source.seek(chunk)?;
         let (mut header, mut bytes) = (Vec::new(), Vec::new());
         let end = source.end();
@@ -107,22 +108,22 @@ impl BagFile for Ros1Bag {
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
-        Scan::new(&self.path, MAGIC.len() as u64)?.run(&mut Taker { each, damage })
+        Scan::new(&self.bytes, MAGIC.len() as u64)?.run(&mut Taker { each, damage })
     }
 
     fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
         match place {
             Place::Bytes { start, length } => self
                 .read_bytes(start, length)
-                .map_err(|fault| fault.at(&self.path, format!("message at byte {start}"))),
+                .map_err(|fault| fault.at(self.bytes.path(), format!("message at byte {start}"))),
             Place::InChunk { chunk, start, length } => {
                 self.read_from_chunk(chunk, start, length).map_err(|fault| {
                     let field = format!("message at byte {start} of the chunk at byte {chunk}");
-                    fault.at(&self.path, field)
+                    fault.at(self.bytes.path(), field)
                 })
             }
             Place::Row(row) => Err(RecordingError::invalid(
-                &self.path,
+                self.bytes.path(),
                 format!("message of row {row}"),
                 "a bag of ROS 1 has no rows",
                 "Scan the file for its messages",

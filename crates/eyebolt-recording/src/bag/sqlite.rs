@@ -1,13 +1,19 @@
 //! ROS 2's bags in SQLite (`rosbag2_storage_sqlite3`).
 
+mod connection;
+mod fault;
 mod uri;
 
-use super::{BagFile, Encoding, LARGEST_CHUNK, Message, Place, Topic, ros_type};
+use super::bag_file::BagFile;
+use super::message::{Message, Place};
+use super::topic::{Encoding, Topic, ros_type};
 use crate::error::RecordingError;
-use rusqlite::limits::Limit;
-use rusqlite::{Connection, OpenFlags, OptionalExtension, Row};
+use connection::{connect, cut_short};
+use fault::{bad_row, damaged};
+use rusqlite::{Connection, Row};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// The first bytes of a file.
 pub(super) const FILE_MAGIC: &[u8; 15] = b"SQLite format 3";
@@ -16,6 +22,9 @@ pub(super) const FILE_MAGIC: &[u8; 15] = b"SQLite format 3";
 #[derive(Debug)]
 pub(crate) struct SqliteFile {
     path: PathBuf,
+    /// For reading messages again, one at a time: it has a cache and a cursor that threads cannot
+    /// share. A scan has a connection of its own, so that messages can be read within it.
+    connection: Mutex<Connection>,
     topics: Vec<Topic>,
     /// Which of `topics` a `topic_id` is.
     index_of: BTreeMap<i64, usize>,
@@ -29,11 +38,15 @@ const MOST_TOPICS: usize = 100_000;
 impl SqliteFile {
     /// Opens the bag and lists its topics.
     pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
-        let mut file =
-            Self { path: path.to_path_buf(), topics: Vec::new(), index_of: BTreeMap::new() };
-        let connection = file.connect()?;
-        let listed = file.list_topics(&connection);
-        file.fill(listed.map_err(|error| file.damaged(&error))?);
+        let connection = connect(path)?;
+        let listed = list_topics(&connection).map_err(|error| damaged(path, &error))?;
+        let mut file = Self {
+            path: path.to_path_buf(),
+            connection: Mutex::new(connection),
+            topics: Vec::new(),
+            index_of: BTreeMap::new(),
+        };
+        file.fill(listed);
         Ok(file)
     }
 
@@ -48,83 +61,6 @@ impl SqliteFile {
         }
     }
 
-    fn list_topics(&self, connection: &Connection) -> rusqlite::Result<Vec<(i64, Topic)>> {
-        let sql = "SELECT id, name, type, serialization_format FROM topics ORDER BY id LIMIT ?1";
-        let mut statement = connection.prepare(sql)?;
-        let topic = |row: &Row<'_>| {
-            let (id, name, kind, format): (i64, String, String, String) =
-                (row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?);
-            let encoding = if format == "cdr" { Encoding::Cdr } else { Encoding::Other(format) };
-            Ok((id, Topic { name, message_type: ros_type(&kind), encoding }))
-        };
-        statement.query_map([MOST_TOPICS as i64], topic)?.collect()
-    }
-
-    fn connect(&self) -> Result<Connection, RecordingError> {
-        let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
-            | OpenFlags::SQLITE_OPEN_NO_MUTEX
-            | OpenFlags::SQLITE_OPEN_URI;
-        let opened =
-            Connection::open_with_flags(uri::untouched(&self.path), flags).and_then(|connection| {
-                // A hostile file must not make SQLite evaluate its own expressions, or large values.
-                connection.pragma_update(None, "trusted_schema", false)?;
-                connection.pragma_update(None, "cell_size_check", true)?;
-                let limit = i32::try_from(LARGEST_CHUNK).unwrap_or(i32::MAX);
-                connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, limit)?;
-                Ok(connection)
-            });
-        let connection = opened.map_err(|error| self.damaged(&error))?;
-        for table in ["topics", "messages"] {
-            self.check_table(&connection, table)?;
-        }
-        Ok(connection)
-    }
-
-    /// A view or virtual table in a table's place could run for ever.
-    fn check_table(&self, connection: &Connection, table: &str) -> Result<(), RecordingError> {
-        let sql = "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?1";
-        let found = connection.query_row(sql, [table], |row| row.get::<_, String>(0)).optional();
-        let found = found.map_err(|error| self.damaged(&error))?;
-        // A virtual table is not listed as one in the words; computed columns are hidden.
-        let plain = found.is_some_and(|sql| sql.to_ascii_uppercase().starts_with("CREATE TABLE"));
-        let sql = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden != 0";
-        let computed: Result<i64, _> = connection.query_row(sql, [table], |row| row.get(0));
-        if plain && computed.map_err(|error| self.damaged(&error))? == 0 {
-            return Ok(());
-        }
-        let problem = "the database has no such table, so it is no bag";
-        let remedy = "Give the file or folder that `ros2 bag record` wrote";
-        Err(RecordingError::invalid(&self.path, format!("table {table}"), problem, remedy))
-    }
-
-    /// What is missing at the end of the file; SQLite reads zeros in the place of half a page.
-    fn cut_short(&self, connection: &Connection) -> Option<RecordingError> {
-        let pragma = |name: &str| {
-            let value = connection.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
-            u64::try_from(value.ok()?).ok()
-        };
-        let should_be = pragma("page_count")?.checked_mul(pragma("page_size")?)?;
-        let length = std::fs::metadata(&self.path).ok()?.len();
-        if uri::has_more(&self.path) || length >= should_be {
-            return None;
-        }
-        let problem = format!("the file is cut short: it has {length} of {should_be} bytes");
-        let remedy = "Copy it again, or give --partial to use what can be read";
-        Some(RecordingError::invalid(&self.path, "database", problem, remedy))
-    }
-
-    fn damaged(&self, error: &rusqlite::Error) -> RecordingError {
-        let remedy = "The file is damaged or no bag: copy it again, or recover it with the \
-                      `.recover` command of sqlite3";
-        RecordingError::invalid(&self.path, "database", error.to_string(), remedy)
-    }
-
-    fn bad_row(&self, row: i64, problem: String) -> RecordingError {
-        let remedy =
-            "The message is damaged: copy the bag again, or give --partial to go without it";
-        RecordingError::invalid(&self.path, format!("message {row}"), problem, remedy)
-    }
-
     fn message_at(
         &self,
         row: &Row<'_>,
@@ -136,11 +72,11 @@ impl SqliteFile {
         };
         let (id, topic_id, log_time_ns, data) = match fields() {
             Ok(fields) => fields,
-            Err(error) => return damage(self.damaged(&error)),
+            Err(error) => return damage(damaged(&self.path, &error)),
         };
         let index = self.index_of.get(&topic_id).copied();
         let Some((topic_index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
-            return damage(self.bad_row(id, format!("there is no topic {topic_id}")));
+            return damage(bad_row(&self.path, id, format!("there is no topic {topic_id}")));
         };
         each(&Message { topic, topic_index, log_time_ns, place: Place::Row(id), data })
     }
@@ -152,11 +88,11 @@ impl BagFile for SqliteFile {
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut dyn FnMut(RecordingError) -> Result<(), RecordingError>,
     ) -> Result<(), RecordingError> {
-        let connection = self.connect()?;
-        self.cut_short(&connection).map_or(Ok(()), &mut *damage)?;
+        let connection = connect(&self.path)?;
+        cut_short(&self.path, &connection).map_or(Ok(()), &mut *damage)?;
         // In the order of the table, and never sorted: that could take any time and room.
         let sql = "SELECT id, topic_id, timestamp, data FROM messages NOT INDEXED";
-        let failed = |error: rusqlite::Error| self.damaged(&error);
+        let failed = |error: rusqlite::Error| damaged(&self.path, &error);
         let mut statement = connection.prepare(sql).map_err(failed)?;
         let mut rows = statement.query([]).map_err(failed)?;
         let mut last = None;
@@ -166,24 +102,38 @@ impl BagFile for SqliteFile {
                     // Pages that refer to one another would be read for ever.
                     let id: Option<i64> = row.get(0).ok();
                     if id <= last {
-                        return damage(self.bad_row(last.unwrap_or(0), NOT_RISING.to_owned()));
+                        return damage(bad_row(&self.path, last.unwrap_or(0), NOT_RISING));
                     }
                     last = id;
                     self.message_at(row, each, damage)?;
                 }
                 Ok(None) => return Ok(()),
                 // The database cannot be read on from here.
-                Err(error) => return damage(self.damaged(&error)),
+                Err(error) => return damage(damaged(&self.path, &error)),
             }
         }
     }
 
     fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
         let Place::Row(id) = place else {
-            return Err(self.bad_row(0, "a byte was asked for".to_owned()));
+            return Err(bad_row(&self.path, 0, "a byte was asked for"));
         };
-        let connection = self.connect()?;
+        // A read that panicked has left no statement behind.
+        let connection = self.connection.lock().unwrap_or_else(PoisonError::into_inner);
         let sql = "SELECT data FROM messages WHERE id = ?1";
-        connection.query_row(sql, [id], |row| row.get(0)).map_err(|error| self.damaged(&error))
+        let data = connection.query_row(sql, [id], |row| row.get(0));
+        data.map_err(|error| damaged(&self.path, &error))
     }
+}
+
+fn list_topics(connection: &Connection) -> rusqlite::Result<Vec<(i64, Topic)>> {
+    let sql = "SELECT id, name, type, serialization_format FROM topics ORDER BY id LIMIT ?1";
+    let mut statement = connection.prepare(sql)?;
+    let topic = |row: &Row<'_>| {
+        let (id, name, kind, format): (i64, String, String, String) =
+            (row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?);
+        let encoding = if format == "cdr" { Encoding::Cdr } else { Encoding::Other(format) };
+        Ok((id, Topic { name, message_type: ros_type(&kind), encoding }))
+    };
+    statement.query_map([MOST_TOPICS as i64], topic)?.collect()
 }

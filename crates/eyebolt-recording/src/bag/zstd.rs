@@ -1,8 +1,8 @@
 //! Zstandard: of chunks, of single messages and of whole files.
 
-use super::LARGEST_CHUNK;
+use super::bag_file::LARGEST_CHUNK;
+use super::bytes::Bytes;
 use crate::error::RecordingError;
-use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
@@ -89,18 +89,17 @@ pub(super) struct FileLimit {
 /// No depth recording comes near.
 pub(super) const FILE_LIMIT: FileLimit = FileLimit { always: 4 << 30, ratio: 200 };
 
-/// Decompresses the file at `path` to a file in the folder `scratch` that goes when it is dropped.
+/// Decompresses a file to a file in the folder `scratch` that goes when it is dropped.
 pub(super) fn unzip_file(
-    path: &Path,
+    compressed: &Bytes,
     scratch: &Path,
     limit: FileLimit,
 ) -> Result<NamedTempFile, RecordingError> {
-    let unreadable = |cause| RecordingError::unreadable_bag(path, cause);
-    let compressed = File::open(path).map_err(unreadable)?;
-    let stored = compressed.metadata().map_err(unreadable)?.len();
+    let (path, stored) = (compressed.path(), compressed.length());
     let limit = limit.always.max(stored.saturating_mul(limit.ratio));
-    let decoder = zstd::stream::read::Decoder::with_buffer(BufReader::new(compressed));
-    let mut decoder = decoder.map_err(unreadable)?.take(limit.saturating_add(1));
+    let decoder = zstd::stream::read::Decoder::with_buffer(BufReader::new(compressed.reader(0)));
+    let mut decoder =
+        decoder.map_err(|cause| compressed.unreadable(cause))?.take(limit.saturating_add(1));
     let unwritable = |cause: std::io::Error| RecordingError::Read {
         path: scratch.to_path_buf(),
         field: "a decompressed copy of the bag".to_owned(),

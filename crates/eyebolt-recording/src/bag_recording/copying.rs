@@ -5,7 +5,7 @@ use super::scan::is_static;
 use crate::bag::{Bag, Message, Topic};
 use crate::error::RecordingError;
 use crate::frame_source::FrameSource;
-use crate::write::BACKGROUND_TOPIC;
+use crate::own_metadata::BACKGROUND_TOPIC;
 use eyebolt_geometry::PinholeCamera;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -50,11 +50,6 @@ impl BagRecording {
             let chosen = self.topic(number);
             chosen.name == topic.name && chosen.message_type == topic.message_type
         })
-    }
-
-    /// Whether the bag says what the robot is.
-    pub(crate) fn has_description(&self) -> bool {
-        self.chosen.description.is_some()
     }
 
     /// The camera, if a file told it, and the topic where it would be looked for.

@@ -1,6 +1,6 @@
 //! Clouds in NPY.
 
-use super::{FIELD, Stored, invalid};
+use super::stored::{FIELD, Stored, invalid};
 use crate::depth::shape_text;
 use crate::error::RecordingError;
 use crate::npy::{Dtype, Npy};

@@ -10,7 +10,7 @@ mod layout;
 mod lzf;
 mod viewpoint;
 
-use super::{LARGEST, Stored, check_count, damaged};
+use super::stored::{LARGEST, Stored, check_count, damaged, invalid};
 use crate::error::RecordingError;
 use header::{Encoding, Header};
 use layout::Layout;
@@ -68,7 +68,7 @@ fn unpack(path: &Path, data: &[u8], header: &Header) -> Result<(Vec<u8>, Layout)
     };
     if size as u64 > LARGEST {
         let problem = format!("decompressed it is larger than {} MiB", LARGEST >> 20);
-        return Err(super::invalid(path, problem, "Leave fields other than x, y, z out"));
+        return Err(invalid(path, problem, "Leave fields other than x, y, z out"));
     }
     // PCL reserves room for points that do not shrink, and leaves zeros behind those that do.
     let Some(packed) = stored.get(..packed_size) else {

@@ -8,7 +8,7 @@ mod header;
 mod records;
 mod scalar;
 
-use super::{Stored, check_count, damaged};
+use super::stored::{Stored, check_count, damaged};
 use crate::error::RecordingError;
 use header::{Element, Encoding, Header};
 use records::{Ascii, Binary, Records};

@@ -1,6 +1,6 @@
 //! Which of the names in a file are joints of the recording.
 
-use super::invalid;
+use super::positions::invalid;
 use crate::error::RecordingError;
 use std::collections::HashMap;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Joints in CSV: columns named by a header, one row for every frame.
 
 use super::choice::{Choice, FRAME, choose, shown};
+use super::positions::{MOST_NAMES, in_order, invalid, positions};
 use super::table::Table;
-use super::{MOST_NAMES, in_order, invalid, positions};
 use crate::error::RecordingError;
 use ::csv::{ErrorKind, Reader, ReaderBuilder, StringRecord, Trim};
 use eyebolt_robot::JointPositions;

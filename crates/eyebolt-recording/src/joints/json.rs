@@ -3,8 +3,8 @@
 mod object;
 
 use super::choice::{FRAME, choose, shown};
+use super::positions::{invalid, positions};
 use super::table::Table;
-use super::{invalid, positions};
 use crate::error::RecordingError;
 use eyebolt_robot::JointPositions;
 use object::{Entries, Object, Value};

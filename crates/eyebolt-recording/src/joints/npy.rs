@@ -1,6 +1,6 @@
 //! Joints of one frame in NPY: numbers without names.
 
-use super::{FIELD, in_order, invalid};
+use super::positions::{FIELD, in_order, invalid};
 use crate::depth::shape_text;
 use crate::error::RecordingError;
 use crate::npy::{Dtype, Npy};

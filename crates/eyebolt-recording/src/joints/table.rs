@@ -1,7 +1,7 @@
 //! The joints of all frames of a recording, from the rows of one file.
 
 use super::choice::shown;
-use super::invalid;
+use super::positions::invalid;
 use crate::error::RecordingError;
 use eyebolt_robot::JointPositions;
 use std::collections::HashMap;

@@ -1,7 +1,7 @@
 //! From the spelled fields to their meaning.
 
+use super::fields::{Background, CloudFrame, JointFiles, RangeKind, Unit};
 use super::raw::{RawBackground, RawFrames};
-use super::{Background, CloudFrame, JointFiles, RangeKind, Unit};
 use crate::error::RecordingError;
 use crate::pattern::{Pattern, extension};
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Where the truth of a recording lies.
 
 use super::parse::Source;
-use super::{KEY, RECORD, Truth};
+use super::written::{KEY, RECORD, Truth};
 use crate::bag::{Bag, is_bag};
 use crate::error::RecordingError;
 use crate::file::read_text;

@@ -1,6 +1,6 @@
 //! Truth from JSON text, field by field, so that an error names the field.
 
-use super::{CameraMoved, SCHEMA, Truth};
+use super::written::{CameraMoved, SCHEMA, Truth};
 use crate::error::RecordingError;
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::Matrix4;

@@ -1,9 +1,11 @@
 //! Messages of a bag into another.
 
+use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
+use super::progress::{WriteProgress, tell};
 use super::recording_writer::DESCRIPTION;
-use super::{WriteError, WriteProgress, WriteRobot, tell};
+use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
 use crate::bag_recording::BagRecording;
 use crate::camera_info::camera_info_message;
@@ -17,7 +19,8 @@ use crate::message::{
 use std::borrow::Cow;
 use std::io::{Seek, Write};
 
-/// Copies the messages of the topics that make the recording, and of `/tf_static`.
+/// Copies the messages of the topics that make the recording, and of `/tf_static`. A robot
+/// description of its own stays out where `robot` has another.
 pub(super) fn bag<W: Write + Seek>(
     bag: &BagRecording,
     robot: &WriteRobot,
@@ -26,13 +29,16 @@ pub(super) fn bag<W: Write + Seek>(
 ) -> Result<(), WriteError> {
     let total = bag.message_count();
     let (mut done, mut failed) = (0, None);
-    let mut extra = Extra { bag, robot, written: false };
+    let urdf = other_description(bag, robot);
+    let mut extra = Extra { bag, urdf, written: false };
     let scanned = bag.scan_again(&mut |message| {
         done += 1;
         let mut copy = || {
             tell(progress, done, total)?;
             extra.before(message, writer)?;
-            if bag.is_chosen(message.topic) {
+            // Of the topics that make a recording only the description is text.
+            let replaced = urdf.is_some() && message.topic.message_type == types::STRING;
+            if bag.is_chosen(message.topic) && !replaced {
                 one(bag, message, writer)?;
             }
             Ok(())
@@ -49,10 +55,17 @@ pub(super) fn bag<W: Write + Seek>(
     }
 }
 
-/// What flags gave instead of the bag: written once, before the first message.
+/// The description to write in the place of the bag's; `None` where they are the same, which is then
+/// copied with the time that it has.
+fn other_description<'a>(bag: &BagRecording, robot: &'a WriteRobot) -> Option<&'a str> {
+    let own = bag.robot().description.as_deref();
+    robot.urdf.as_deref().filter(|urdf| own != Some(*urdf))
+}
+
+/// What was given instead of what the bag has: written once, before the first message.
 struct Extra<'a> {
     bag: &'a BagRecording,
-    robot: &'a WriteRobot,
+    urdf: Option<&'a str>,
     written: bool,
 }
 
@@ -66,9 +79,7 @@ impl Extra<'_> {
             return Ok(());
         }
         let time_ns = message.log_time_ns;
-        if let Some(urdf) = &self.robot.urdf
-            && !self.bag.has_description()
-        {
+        if let Some(urdf) = self.urdf {
             writer.write(DESCRIPTION, types::STRING, time_ns, &messages::description(urdf))?;
         }
         if let Some((camera, topic)) = self.bag.given_camera() {

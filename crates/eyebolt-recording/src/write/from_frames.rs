@@ -1,9 +1,12 @@
 //! Frames of a folder, or of another source, as messages.
 
-use super::recording_writer::{Described, RecordingWriter, SCHEMA};
-use super::{WriteError, WriteProgress, WriteRobot, tell};
+use super::error::WriteError;
+use super::progress::{WriteProgress, tell};
+use super::recording_writer::{Described, RecordingWriter};
+use super::robot::WriteRobot;
 use crate::bag_recording::BagRecording;
 use crate::frame::Range;
+use crate::own_metadata::SCHEMA;
 use crate::recording::Recording;
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};

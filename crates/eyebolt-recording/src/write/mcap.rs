@@ -1,7 +1,7 @@
 //! MCAP with ROS 2 messages, as `ros2 bag record -s mcap` writes it.
 
-use super::WriteError;
 use super::definitions::definition;
+use super::error::WriteError;
 use crate::message::{StaticTransform, types, write_transforms};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, McapError, WriteOptions};

@@ -1,11 +1,12 @@
 //! A recording as MCAP, message by message: the one place that knows the topics of ours.
 
-use super::WriteError;
+use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
 use crate::camera_info::camera_info_message;
 use crate::color::ColorImage;
 use crate::message::{Header, types};
+use crate::own_metadata::{self, BACKGROUND_TOPIC, SCHEMA};
 use crate::truth::{self, Truth};
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
 use eyebolt_robot::JointPositions;
@@ -21,10 +22,6 @@ const COLOR: &str = "/camera/color/image_raw";
 const JOINTS: &str = "/joint_states";
 pub(super) const DESCRIPTION: &str = "/robot_description";
 
-/// Key of the metadata that names the topic of the backgrounds.
-pub(crate) const BACKGROUND_TOPIC: &str = "background_topic";
-/// Version of the metadata, which they name.
-pub(super) const SCHEMA: &str = "eyebolt.recording/1";
 /// Stamps are of 32 bits of seconds, and none are negative in files.
 const LAST_STAMP_NS: i64 = (i32::MAX as i64) * 1_000_000_000;
 
@@ -139,7 +136,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
             self.metadata.insert(BACKGROUND_TOPIC.to_owned(), BACKGROUND.to_owned());
             if self.begun {
                 // Of several records the last one counts.
-                self.writer.metadata(crate::METADATA_NAME, &self.metadata)?;
+                self.writer.metadata(own_metadata::NAME, &self.metadata)?;
             }
         }
         self.depth_on(BACKGROUND, stamp_ns, depth, in_millimetres)
@@ -209,7 +206,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
     /// A failing output.
     pub fn finish(mut self) -> Result<(), WriteError> {
         if !self.begun {
-            self.writer.metadata(crate::METADATA_NAME, &self.metadata)?;
+            self.writer.metadata(own_metadata::NAME, &self.metadata)?;
         }
         self.writer.finish()
     }
@@ -262,7 +259,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
         }
         if !self.begun {
             self.begun = true;
-            self.writer.metadata(crate::METADATA_NAME, &self.metadata)?;
+            self.writer.metadata(own_metadata::NAME, &self.metadata)?;
             // At the first moment of the recording: whoever plays it need not wait for the next.
             if let Some(urdf) = &self.urdf {
                 let data = messages::description(urdf);

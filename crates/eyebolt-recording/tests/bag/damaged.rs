@@ -54,7 +54,7 @@ fn what_a_killed_recorder_left_can_be_used() {
     let whole = BagRecording::open(&path, &BagOptions::default()).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
     let cut = BagRecording::open(&path, &BagOptions::default());
-    assert_says(cut, &["bag.mcap: record at byte", "`mcap recover`", "--partial"]);
+    assert_says(cut, &["bag.mcap: record at byte", "`mcap recover`", "`partial`"]);
     let options = BagOptions { partial: true, ..Default::default() };
     let part = BagRecording::open(&path, &options).unwrap();
     assert_eq!(part.damage().len(), 1);

@@ -2,7 +2,22 @@
 
 use super::sample::{Bag, CLOUD, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_NS, assert_says};
 use super::writer;
-use eyebolt_recording::{FrameSource, RecordingError};
+use super::writer::Message;
+use eyebolt_recording::{
+    BagOptions, FrameSource, Recording, RecordingError, WriteError, WriteRobot, write_folder,
+};
+use std::ops::ControlFlow;
+
+/// Makes it a compressed image, of which only the reading tells that it has no depth.
+fn without_depth(message: &mut Message) {
+    // Twelve bytes of configuration, the size, and a run of twelve zeros and none filled.
+    let mut rvl = vec![0; 12];
+    rvl.extend([4, 0, 0, 0, 3, 0, 0, 0]);
+    rvl.extend(0xc1_00_00_00_u32.to_le_bytes());
+    message.message_type = "sensor_msgs/CompressedImage";
+    let format = "16UC1; compressedDepth rvl";
+    message.data = writer::compressed(message.log_time_ns, FRAME, format, &rvl);
+}
 
 #[test]
 fn images_without_depth_are_dropped() {
@@ -37,14 +52,8 @@ fn clouds_without_points_are_dropped() {
 #[test]
 fn compressed_images_without_depth_are_an_error() {
     let mut bag = Bag::sample();
-    // Twelve bytes of configuration, the size, and a run of twelve zeros and none filled.
-    let mut rvl = vec![0; 12];
-    rvl.extend([4, 0, 0, 0, 3, 0, 0, 0]);
-    rvl.extend(0xc1_00_00_00_u32.to_le_bytes());
     for message in bag.on(DEPTH_TOPIC) {
-        message.message_type = "sensor_msgs/CompressedImage";
-        let format = "16UC1; compressedDepth rvl";
-        message.data = writer::compressed(message.log_time_ns, FRAME, format, &rvl);
+        without_depth(message);
     }
     assert_says(bag.open().read_frame(0), &[DEPTH_TOPIC, "1700000000.005 s", "no pixel has depth"]);
 }
@@ -69,4 +78,26 @@ fn compressed_images_without_depth_may_be_left_out() {
     assert!(bag.may_leave_out(&empty));
     // A frame that is not there, or damage that was not said to be no matter, may not.
     assert!(!bag.may_leave_out(&bag.read_frame(1000).unwrap_err()));
+}
+
+#[test]
+fn a_folder_of_no_frame_is_not_written() {
+    let mut bag = Bag::sample();
+    for message in bag.on(DEPTH_TOPIC) {
+        without_depth(message);
+    }
+    // Names of masks and pictures must not be left behind either.
+    let (_folder, path) = bag.write();
+    let recording = Recording::open(&path, &BagOptions::default()).unwrap();
+    let frames = recording.frame_names().len();
+    let output = tempfile::tempdir().unwrap();
+    let go_on = &mut |_, _| ControlFlow::Continue(());
+    let written = write_folder(&recording, &WriteRobot::default(), output.path(), go_on);
+    let Err(WriteError::NoFrameLeft { count, .. }) = &written else { panic!("{written:?}") };
+    assert_eq!(*count, frames);
+    let said =
+        format!("bag.mcap: frames: all {frames} were left out: no pixel has depth ({frames})");
+    let text = written.unwrap_err().to_string();
+    assert!(text.contains(&said), "{text}");
+    assert_eq!(std::fs::read_dir(output.path()).unwrap().count(), 0);
 }

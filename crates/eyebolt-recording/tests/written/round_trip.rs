@@ -144,7 +144,7 @@ fn what_a_killed_writer_left_has_no_background() {
     let name = b"background_topic";
     let named = whole.windows(name.len()).position(|bytes| bytes == name).unwrap();
     fs::write(&path, &whole[..named + 100]).unwrap();
-    assert_says(Recording::open(&path, &BagOptions::default()), &["--partial"]);
+    assert_says(Recording::open(&path, &BagOptions::default()), &["`partial`"]);
     let options = BagOptions { partial: true, ..BagOptions::default() };
     let recording = Recording::open(&path, &options).unwrap();
     assert_eq!((recording.frame_names().len(), recording.background_count()), (5, 0));

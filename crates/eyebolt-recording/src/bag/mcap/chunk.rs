@@ -1,8 +1,8 @@
 //! Chunks: compressed runs of records.
 
-use super::super::LARGEST_CHUNK;
-use super::super::zstd::Unzipper;
 use super::fields::Fields;
+use crate::bag::bag_file::LARGEST_CHUNK;
+use crate::bag::zstd::Unzipper;
 use std::io::Read;
 use std::ops::Range;
 

@@ -1,24 +1,11 @@
 //! Records of MCAP: what schemas, channels and messages say.
 
-use super::super::{Encoding, Message, Place, Topic, ros_type};
-use super::MAGIC;
 use super::fields::Fields;
+use crate::bag::message::{Message, Place};
+use crate::bag::topic::{Encoding, Topic, ros_type};
 use crate::error::RecordingError;
 use mcap::records::op;
 use std::collections::BTreeMap;
-use std::io::Read;
-use std::path::Path;
-
-/// Reads the first bytes of a file, which tell that it is MCAP; returns how many these are.
-pub(super) fn after_magic(path: &Path, reader: &mut impl Read) -> Result<u64, RecordingError> {
-    let mut magic = [0; MAGIC.len()];
-    let read = reader.read_exact(&mut magic);
-    if read.is_err() || magic != MAGIC {
-        let remedy = "Give the file that `ros2 bag record -s mcap` wrote";
-        return Err(RecordingError::invalid(path, "magic", "the file is not MCAP", remedy));
-    }
-    Ok(MAGIC.len() as u64)
-}
 
 /// Why a record was not used.
 pub(super) enum Stop {

@@ -4,7 +4,8 @@ use super::buffer::read_up_to;
 use super::fault::Fault;
 use super::header::Header;
 use super::source::{Record, Source};
-use crate::bag::LARGEST_CHUNK;
+use crate::bag::bag_file::LARGEST_CHUNK;
+use crate::bag::remedy::or_partial;
 use bzip2::bufread::BzDecoder;
 use lz4_flex::frame::FrameDecoder;
 use std::io::Read;
@@ -49,8 +50,7 @@ impl Chunk {
         if u64::from(self.size) > LARGEST_CHUNK {
             return Err(Fault::Damage {
                 problem: format!("{} bytes are too many for a chunk", self.size),
-                remedy: "Record with a smaller `--chunksize`, \
-                         or give --partial to use the rest",
+                remedy: or_partial("Record with a smaller `--chunksize`", "to use the rest"),
             });
         }
         let stored = source.by_ref().take(u64::from(record.length));

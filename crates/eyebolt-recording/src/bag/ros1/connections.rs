@@ -3,9 +3,9 @@
 use super::fault::Fault;
 use super::header::{Header, Op};
 use super::source::Source;
-use crate::bag::{Encoding, Topic};
+use crate::bag::bytes::Bytes;
+use crate::bag::topic::{Encoding, Topic};
 use std::collections::HashMap;
-use std::path::Path;
 
 /// Most connections of a file, far above what a robot has. With [`LONGEST_NAME`] it bounds memory.
 const MOST_CONNECTIONS: usize = 1 << 14;
@@ -17,8 +17,8 @@ const LONGEST_NAME: usize = 1 << 10;
 pub(super) const LARGEST_CONNECTION: u64 = 16 << 20;
 
 /// The connections that a scan has come by.
-pub(super) struct Connections<'p> {
-    path: &'p Path,
+pub(super) struct Connections<'b> {
+    bytes: &'b Bytes,
     /// Where the index begins, which repeats every connection; 0 if there is none, or it was read.
     index: u64,
     topics: Vec<Topic>,
@@ -26,10 +26,10 @@ pub(super) struct Connections<'p> {
     topic_of: HashMap<u32, usize>,
 }
 
-impl<'p> Connections<'p> {
-    /// None so far, of the file at `path`.
-    pub(super) fn new(path: &'p Path) -> Self {
-        Self { path, index: 0, topics: Vec::new(), topic_of: HashMap::new() }
+impl<'b> Connections<'b> {
+    /// None so far, of the file of `bytes`.
+    pub(super) fn new(bytes: &'b Bytes) -> Self {
+        Self { bytes, index: 0, topics: Vec::new(), topic_of: HashMap::new() }
     }
 
     /// Has connections that are missing looked for at byte `index` of the file.
@@ -77,7 +77,7 @@ impl<'p> Connections<'p> {
     }
 
     fn add_from_index(&mut self) -> Result<(), Fault> {
-        let mut source = Source::open(self.path)?;
+        let mut source = Source::new(self.bytes);
         source.seek(self.index)?;
         let (mut header, mut data) = (Vec::new(), Vec::new());
         while source.at() < source.end() {

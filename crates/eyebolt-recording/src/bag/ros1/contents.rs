@@ -3,7 +3,7 @@
 use super::connections::Connections;
 use super::fault::{Fault, Taker};
 use super::header::{Header, Op, split_sized};
-use crate::bag::{Message, Place};
+use crate::bag::message::{Message, Place};
 use crate::error::RecordingError;
 use std::path::Path;
 

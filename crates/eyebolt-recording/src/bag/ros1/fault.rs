@@ -1,12 +1,13 @@
 //! What stops a scan, and who decides whether it goes on.
 
-use crate::bag::Message;
+use crate::bag::message::Message;
+use crate::bag::remedy::or_partial;
 use crate::error::RecordingError;
 use std::path::Path;
 
-const DAMAGED: &str = "The file is damaged: copy it again, or give --partial to use the rest";
-const CUT: &str = "Was the recorder killed? Repair it with `rosbag reindex`, \
-                   or give --partial to use what is before";
+const DAMAGED: (&str, &str) = ("The file is damaged: copy it again", "to use the rest");
+const CUT: (&str, &str) =
+    ("Was the recorder killed? Repair it with `rosbag reindex`", "to use what is before");
 
 /// Why a record cannot be used.
 #[derive(Debug)]
@@ -18,14 +19,14 @@ pub(super) enum Fault {
         /// What was found.
         problem: String,
         /// What to do about it.
-        remedy: &'static str,
+        remedy: String,
     },
 }
 
 impl Fault {
     /// The file ends before `problem` is over.
     pub(super) fn cut(problem: impl Into<String>) -> Self {
-        Self::Damage { problem: problem.into(), remedy: CUT }
+        Self::Damage { problem: problem.into(), remedy: or_partial(CUT.0, CUT.1) }
     }
 
     /// As an error about the part `field` of the file at `path`.
@@ -47,7 +48,7 @@ impl From<RecordingError> for Fault {
 
 impl From<String> for Fault {
     fn from(problem: String) -> Self {
-        Self::Damage { problem, remedy: DAMAGED }
+        Self::Damage { problem, remedy: or_partial(DAMAGED.0, DAMAGED.1) }
     }
 }
 

@@ -6,15 +6,17 @@ use super::contents::{contents, take};
 use super::fault::{Fault, Taker};
 use super::header::{Header, Op};
 use super::source::{Record, Source};
-use crate::bag::{LARGEST_CHUNK, Place};
+use crate::bag::bag_file::LARGEST_CHUNK;
+use crate::bag::bytes::Bytes;
+use crate::bag::message::Place;
 use crate::error::RecordingError;
 use std::path::Path;
 
 /// Where a scan is, and its buffers.
-pub(super) struct Scan<'p> {
-    path: &'p Path,
-    source: Source<'p>,
-    connections: Connections<'p>,
+pub(super) struct Scan<'b> {
+    path: &'b Path,
+    source: Source<'b>,
+    connections: Connections<'b>,
     /// Where the next record begins.
     next: u64,
     /// Where the uncompressed chunk ends that the scan went into last.
@@ -26,12 +28,12 @@ pub(super) struct Scan<'p> {
     chunk: Vec<u8>,
 }
 
-impl<'p> Scan<'p> {
-    /// Of the file at `path`, whose first record begins at byte `first`.
-    pub(super) fn new(path: &'p Path, first: u64) -> Result<Self, RecordingError> {
-        let mut source = Source::open(path)?;
+impl<'b> Scan<'b> {
+    /// Of a file, whose first record begins at byte `first`.
+    pub(super) fn new(bytes: &'b Bytes, first: u64) -> Result<Self, RecordingError> {
+        let mut source = Source::new(bytes);
         source.seek(first)?;
-        let connections = Connections::new(path);
+        let (path, connections) = (bytes.path(), Connections::new(bytes));
         let (header, data, chunk) = (Vec::new(), Vec::new(), Vec::new());
         let (next, chunk_end, index) = (first, 0, 0);
         Ok(Self { path, source, connections, next, chunk_end, index, header, data, chunk })

@@ -2,10 +2,9 @@
 
 use super::buffer::read_up_to;
 use super::fault::Fault;
+use crate::bag::bytes::{Bytes, BytesReader};
 use crate::error::RecordingError;
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
-use std::path::Path;
 
 /// Largest header of a record, bytes. They have five short fields at most.
 const LARGEST_HEADER: u64 = 64 << 10;
@@ -14,9 +13,9 @@ const LARGEST_HEADER: u64 = 64 << 10;
 const READ_AHEAD: usize = 64 << 10;
 
 /// The file, and where in it the next byte comes from.
-pub(super) struct Source<'p> {
-    path: &'p Path,
-    reader: BufReader<File>,
+pub(super) struct Source<'b> {
+    bytes: &'b Bytes,
+    reader: BufReader<BytesReader<'b>>,
     at: u64,
     end: u64,
 }
@@ -37,11 +36,11 @@ impl Record {
     }
 }
 
-impl<'p> Source<'p> {
-    pub(super) fn open(path: &'p Path) -> Result<Self, RecordingError> {
-        let file = File::open(path).map_err(|cause| failed(path, cause))?;
-        let end = file.metadata().map_err(|cause| failed(path, cause))?.len();
-        Ok(Self { path, reader: BufReader::with_capacity(READ_AHEAD, file), at: 0, end })
+impl<'b> Source<'b> {
+    /// From the first byte on.
+    pub(super) fn new(bytes: &'b Bytes) -> Self {
+        let reader = BufReader::with_capacity(READ_AHEAD, bytes.reader(0));
+        Self { bytes, reader, at: 0, end: bytes.length() }
     }
 
     /// Where the next byte comes from.
@@ -59,7 +58,7 @@ impl<'p> Source<'p> {
         let to = to.min(self.end);
         // No file has 2^63 bytes, so that the difference has its sign. What was read ahead stays.
         let distance = to.wrapping_sub(self.at).cast_signed();
-        self.reader.seek_relative(distance).map_err(|cause| failed(self.path, cause))?;
+        self.reader.seek_relative(distance).map_err(|cause| self.bytes.unreadable(cause))?;
         self.at = to;
         Ok(())
     }
@@ -84,11 +83,11 @@ impl<'p> Source<'p> {
 
     /// Replaces what is in `buffer` by the next `length` bytes.
     pub(super) fn fill(&mut self, buffer: &mut Vec<u8>, length: u64) -> Result<(), RecordingError> {
-        let path = self.path;
-        read_up_to(self, buffer, length).map_err(|cause| failed(path, cause))?;
+        let bytes = self.bytes;
+        read_up_to(self, buffer, length).map_err(|cause| bytes.unreadable(cause))?;
         if (buffer.len() as u64) < length {
             // It was longer when it was opened.
-            return Err(failed(path, io::ErrorKind::UnexpectedEof.into()));
+            return Err(bytes.unreadable(io::ErrorKind::UnexpectedEof.into()));
         }
         Ok(())
     }
@@ -119,7 +118,7 @@ impl<'p> Source<'p> {
         if self.before(limit) < 4 {
             return Err(self.ends_in_header(limit));
         }
-        self.read_exact(&mut bytes).map_err(|cause| failed(self.path, cause))?;
+        self.read_exact(&mut bytes).map_err(|cause| self.bytes.unreadable(cause))?;
         Ok(u64::from(u32::from_le_bytes(bytes)))
     }
 }
@@ -140,14 +139,5 @@ impl BufRead for Source<'_> {
     fn consume(&mut self, count: usize) {
         self.reader.consume(count);
         self.at = self.at.saturating_add(count as u64);
-    }
-}
-
-fn failed(path: &Path, cause: io::Error) -> RecordingError {
-    RecordingError::Read {
-        path: path.to_path_buf(),
-        field: "the bag".to_owned(),
-        remedy: "Check that the file exists and may be read".to_owned(),
-        cause,
     }
 }

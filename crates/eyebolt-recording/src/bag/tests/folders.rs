@@ -1,7 +1,7 @@
 //! Which files of a folder are a bag.
 
 use super::mcap_writer::{mcap, small};
-use super::{assert_says, file, fixture, open, scan, scan_whole, strict};
+use super::support::{assert_says, file, fixture, open, scan, scan_whole, strict};
 use crate::bag::{BagKind, is_bag};
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,9 @@
 //! Small files that become large ones.
 
 use super::mcap_writer::{channel, chunk, mcap, message, schema};
-use super::{assert_says, file, open, scan};
-use crate::bag::LARGEST_CHUNK;
+use super::support::{assert_says, file, open, scan};
+use crate::bag::bag_file::LARGEST_CHUNK;
+use crate::bag::bytes::Bytes;
 use crate::bag::zstd::{FileLimit, Unzipper, unzip_file};
 use std::io::Write;
 
@@ -56,7 +57,8 @@ fn memory_is_what_was_claimed_and_no_more() {
 fn files_may_grow_by_so_much() {
     let (folder, path) = file("bag.mcap.zstd", &zeros(100_000, true));
     let stored = std::fs::metadata(&path).unwrap().len();
-    let unzip = |always, ratio| unzip_file(&path, folder.path(), FileLimit { always, ratio });
+    let bytes = Bytes::open(&path).unwrap();
+    let unzip = |always, ratio| unzip_file(&bytes, folder.path(), FileLimit { always, ratio });
     assert_eq!(unzip(100_000, 1).unwrap().as_file().metadata().unwrap().len(), 100_000);
     assert!(unzip(0, 100_000 / stored + 1).is_ok());
     assert_says(

@@ -1,6 +1,6 @@
 //! MCAP files of others, cut short or with wrong bytes.
 
-use super::{Told, assert_says, file, fixture, open, scan, scan_whole, strict};
+use super::support::{Told, assert_says, file, fixture, open, scan, scan_whole, strict};
 use crate::bag::Place;
 use proptest::prelude::*;
 
@@ -49,7 +49,7 @@ fn every_prefix_gives_what_is_before_the_cut() {
             assert_eq!(told, whole[..before], "{name} of {length} bytes");
             if length < data_end + 9 {
                 assert_eq!(problems.len(), 1, "{name} of {length} bytes");
-                assert_says(strict(&bag), &["record at byte", "`mcap recover`", "--partial"]);
+                assert_says(strict(&bag), &["record at byte", "`mcap recover`", "`partial`"]);
             } else {
                 assert_eq!((problems.len(), told.len()), (0, whole.len()));
             }

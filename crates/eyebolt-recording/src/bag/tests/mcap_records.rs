@@ -1,7 +1,7 @@
 //! MCAP files that claim what cannot be.
 
 use super::mcap_writer::{channel, chunk, mcap, message, record, schema, small, text};
-use super::{assert_says, file, open, scan, scan_whole, strict};
+use super::support::{assert_says, file, open, scan, scan_whole, strict};
 use mcap::records::op;
 
 /// What is wrong with a file of these records, and how many messages it has.

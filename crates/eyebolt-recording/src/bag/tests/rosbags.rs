@@ -1,6 +1,6 @@
 //! Bags of other implementations, and what these read from them.
 
-use super::{Told, fixture, open, scan_whole};
+use super::support::{Told, fixture, open, scan_whole};
 use serde_json::Value;
 use std::collections::BTreeMap;
 

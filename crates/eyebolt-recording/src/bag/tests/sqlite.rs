@@ -1,6 +1,6 @@
 //! Databases that are no bags, damaged or made to keep a reader busy.
 
-use super::{assert_says, file, fixture, open, scan, scan_whole, strict};
+use super::support::{assert_says, file, fixture, open, scan, scan_whole, strict};
 use proptest::prelude::*;
 use rusqlite::Connection;
 use std::path::PathBuf;
@@ -125,7 +125,7 @@ fn every_cut_is_told() {
     handle.set_len(0).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
     let cut = "the file is cut short: it has 10239 of 10240 bytes. Copy it again";
-    assert_says(strict(&open(&path).unwrap()), &[cut, "--partial"]);
+    assert_says(strict(&open(&path).unwrap()), &[cut, "`partial`"]);
 }
 
 proptest! {

@@ -2,8 +2,8 @@
 
 use super::header::Header;
 use super::layout::{Axis, Layout};
+use crate::cloud::stored::{damaged, invalid};
 use crate::cloud::text::{Lines, excerpt, words};
-use crate::cloud::{damaged, invalid};
 use crate::error::RecordingError;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use super::keys::{Keys, REWRITE};
 use super::layout::{Field, Layout};
 use super::viewpoint;
-use crate::cloud::LARGEST_HEADER;
+use crate::cloud::stored::LARGEST_HEADER;
 use crate::cloud::text::{Lines, excerpt};
 use crate::error::RecordingError;
 use std::path::Path;

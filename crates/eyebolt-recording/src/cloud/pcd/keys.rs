@@ -1,7 +1,7 @@
 //! The lines of a PCD header, of a key and its values each, up to `DATA`.
 
+use crate::cloud::stored::{damaged, invalid};
 use crate::cloud::text::{Lines, excerpt};
-use crate::cloud::{damaged, invalid};
 use crate::error::RecordingError;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -2,8 +2,8 @@
 
 use super::scalar::Scalar;
 use crate::cloud::float::Float;
+use crate::cloud::stored::{LARGEST_HEADER, damaged, invalid};
 use crate::cloud::text::{Lines, excerpt};
-use crate::cloud::{LARGEST_HEADER, damaged, invalid};
 use crate::error::RecordingError;
 use std::path::Path;
 

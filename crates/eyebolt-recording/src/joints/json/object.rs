@@ -3,7 +3,7 @@
 //! Not `serde_json::Value`: its objects keep the last of several values of one name, and take
 //! a hundred times their text.
 
-use crate::joints::MOST_NAMES;
+use crate::joints::positions::MOST_NAMES;
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor,
 };

@@ -1,8 +1,9 @@
 //! Cut and changed messages are errors or values, never a panic.
 
 use super::super::{CloudMessage, Header, PointField, types};
-use super::read;
+
 use super::rosbags::fixtures;
+use super::support::read;
 use crate::bag::Encoding;
 use proptest::prelude::*;
 

@@ -1,6 +1,8 @@
 //! Strange messages that mean something, and what is refused with its name.
 
-use super::super::{CompressedImageMessage, Header, ImageMessage, JointStateMessage, WireReader};
+use super::super::{
+    CompressedImageMessage, Header, ImageMessage, JointStateMessage, WireReader, text,
+};
 use crate::bag::Encoding;
 
 /// A joint state in version 2 of CDR, which aligns eight-byte numbers to four.
@@ -44,9 +46,9 @@ fn version_2_of_cdr_aligns_to_four() {
 fn texts_may_lack_the_zero_at_their_end() {
     let mut reader =
         WireReader::new(&Encoding::Cdr, &[0, 1, 0, 0, 2, 0, 0, 0, b'h', b'i']).unwrap();
-    assert_eq!(super::text(&mut reader), Ok("hi"));
+    assert_eq!(text(&mut reader), Ok("hi"));
     let mut empty = WireReader::new(&Encoding::Cdr, &[0, 1, 0, 0, 0, 0, 0, 0]).unwrap();
-    assert_eq!(super::text(&mut empty), Ok(""));
+    assert_eq!(text(&mut empty), Ok(""));
 }
 
 #[test]

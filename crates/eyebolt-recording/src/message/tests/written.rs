@@ -5,8 +5,8 @@ use super::super::{
     JointStateMessage, PointField, StaticTransform, WireReader, transforms, write_transforms,
 };
 use super::rosbags::fixtures;
-use super::types;
 use crate::bag::Encoding;
+use crate::message::types;
 use proptest::prelude::*;
 
 fn reader(bytes: &[u8]) -> WireReader<'_> {

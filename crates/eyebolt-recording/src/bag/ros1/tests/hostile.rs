@@ -1,38 +1,15 @@
 //! Bags that lie.
 
+mod between;
 mod chunks;
 mod headers;
 
-use super::writer::{MAGIC, bag_header, connection, message, record, true_chunk, unindexed};
-use super::{bag, file, said, scan};
-use crate::bag::ros1::Ros1Bag;
+use super::support::{bag, file, open, said, scan};
+use super::writer::{MAGIC, bag_header, message, record, true_chunk, unindexed};
 use crate::bag::{BagFile, Place};
 use crate::error::RecordingError;
+use between::camera;
 use std::path::Path;
-
-const REST: &str = "The file is damaged: copy it again, or give --partial to use the rest";
-
-fn camera() -> Vec<u8> {
-    connection(0, "/camera", "sensor_msgs/Image")
-}
-
-/// What is wrong with `bad`, which stands between two good messages that must come all the same.
-fn problems_of(bad: &[u8]) -> Vec<String> {
-    let records = [camera(), message(0, [1, 0], b"a"), bad.to_vec(), message(0, [2, 0], b"b")];
-    let (messages, problems) = scan(&bag(&unindexed(&records)).1);
-    let data: Vec<_> = messages.iter().map(|m| m.data.as_slice()).collect();
-    assert_eq!(data, [b"a", b"b"], "{problems:?}");
-    problems
-}
-
-/// As [`problems_of`], for one problem, without the file's name, the place and the usual remedy.
-fn problem_of(bad: &[u8]) -> String {
-    let problems = problems_of(bad);
-    let [problem] = problems.as_slice() else { panic!("{problems:?}") };
-    let at = unindexed(&[camera(), message(0, [1, 0], b"a")]).len();
-    let (_, problem) = problem.split_once(&format!(": record at byte {at}: ")).unwrap();
-    problem.strip_suffix(&format!(". {REST}")).unwrap_or(problem).to_owned()
-}
 
 #[test]
 fn other_files_are_told_apart() {
@@ -53,12 +30,12 @@ fn other_files_are_told_apart() {
         (b"", "it is not `#ROSBAG V2.0`. Name a file that ROS 1 recorded"),
     ] {
         let file = file(bytes);
-        let error = said(Ros1Bag::open(file.path()).unwrap_err());
+        let error = said(open(file.path()).unwrap_err());
         assert!(error.ends_with(&format!(": the first line: {problem}")), "{error}");
     }
-    let missing = Ros1Bag::open(Path::new("no/such.bag")).unwrap_err();
+    let missing = open(Path::new("no/such.bag")).unwrap_err();
     assert!(matches!(missing, RecordingError::Read { .. }), "{missing}");
-    Ros1Bag::open(&std::env::temp_dir()).unwrap_err();
+    open(&std::env::temp_dir()).unwrap_err();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What recorders write beyond what `rosbags` does.
 
+use super::support::{bag, scan_whole};
 use super::writer::{connection, message, true_chunk, unindexed};
-use super::{bag, scan_whole};
 use crate::bag::{BagFile, Place};
 use proptest::prelude::*;
 

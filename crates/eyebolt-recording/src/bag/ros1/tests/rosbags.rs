@@ -1,7 +1,6 @@
 //! Bags of another implementation, and what it reads from them.
 
-use super::{Told, bag, scan, scan_whole};
-use crate::bag::ros1::Ros1Bag;
+use super::support::{Told, bag, file, open, scan, scan_whole};
 use crate::bag::{BagFile, Place};
 use proptest::prelude::*;
 use std::collections::HashSet;
@@ -37,7 +36,7 @@ fn hex(bytes: &[u8]) -> String {
 #[test]
 fn every_message_is_what_rosbags_reads() {
     for name in BAGS {
-        let mut messages = scan_whole(&Ros1Bag::open(&fixture(name)).unwrap());
+        let mut messages = scan_whole(&open(&fixture(name)).unwrap());
         assert!(!messages.is_sorted_by_key(|m| m.log_time_ns), "{name} is in order of the file");
         messages.sort_by_key(|m| m.log_time_ns);
         let told = messages.into_iter();
@@ -50,7 +49,7 @@ fn every_message_is_what_rosbags_reads() {
 #[test]
 fn publishers_of_a_topic_are_one_topic() {
     for name in BAGS {
-        let messages = scan_whole(&Ros1Bag::open(&fixture(name)).unwrap());
+        let messages = scan_whole(&open(&fixture(name)).unwrap());
         let topics: HashSet<_> =
             messages.iter().map(|m| (m.topic_index, m.topic.as_str())).collect();
         assert_eq!(topics, HashSet::from([(0, "/joint_states"), (1, "/notes")]), "{name}");
@@ -60,7 +59,7 @@ fn publishers_of_a_topic_are_one_topic() {
 #[test]
 fn any_message_is_found_again_by_several_threads_in_any_order() {
     for name in BAGS {
-        let bag = Ros1Bag::open(&fixture(name)).unwrap();
+        let bag = open(&fixture(name)).unwrap();
         let messages = scan_whole(&bag);
         assert!(name == "ros1_none.bag" || chunks(&messages).len() > 2, "{name} has many chunks");
         std::thread::scope(|scope| {
@@ -88,7 +87,7 @@ fn every_prefix_is_an_error_or_whole() {
         let index = usize::try_from(u64::from_le_bytes(index_pos(&bytes))).unwrap();
         for length in (0..bytes.len()).rev() {
             file.as_file().set_len(length as u64).unwrap();
-            let Ok(prefix) = Ros1Bag::open(file.path()) else {
+            let Ok(prefix) = open(file.path()) else {
                 assert!(length < 13, "{name} of {length} bytes");
                 continue;
             };
@@ -140,7 +139,7 @@ fn a_corrupt_chunk_costs_its_own_messages_only() {
             let [problem] = problems.as_slice() else { panic!("{problems:?}") };
             let field = format!("record at byte {corrupt}: it cannot be decompressed: ");
             assert!(problem.contains(&field), "{problem}");
-            assert!(problem.ends_with("or give --partial to use the rest"), "{problem}");
+            assert!(problem.ends_with("or give `partial` to use the rest"), "{problem}");
         }
     }
 }
@@ -162,8 +161,8 @@ proptest! {
         let at = at.index(bytes.len() - 3900);
         let at = if at < 150 { at } else { at + 3900 };
         bytes[at] = value;
-        let file = super::file(&bytes);
-        if let Ok(bag) = Ros1Bag::open(file.path()) {
+        let file = file(&bytes);
+        if let Ok(bag) = open(file.path()) {
             let (messages, _) = scan(&bag);
             for message in messages {
                 prop_assert_eq!(bag.read(message.place).unwrap(), message.data);

@@ -1,10 +1,10 @@
 //! What is left when a recorder is killed.
 
+use super::support::{bag, scan, scan_whole};
 use super::writer::{MAGIC, bag_header, chunk, compressed, connection, message};
 use super::writer::{true_chunk, unindexed};
-use super::{bag, scan, scan_whole};
 
-const CUT: &str = "Was the recorder killed? Repair it with `rosbag reindex`, or give --partial to use what is before";
+const CUT: &str = "Was the recorder killed? Repair it with `rosbag reindex`, or give `partial` to use what is before";
 
 fn camera() -> Vec<u8> {
     connection(0, "/camera", "sensor_msgs/Image")

@@ -1,8 +1,8 @@
 //! Chunks that lie, or have lies in them.
 
+use super::super::support::{bag, scan, scan_whole};
 use super::super::writer::{chunk, compressed, message, true_chunk, unindexed};
-use super::super::{bag, scan, scan_whole};
-use super::{REST, camera, problem_of};
+use super::between::{REST, camera, problem_of};
 use crate::bag::LARGEST_CHUNK;
 
 #[test]

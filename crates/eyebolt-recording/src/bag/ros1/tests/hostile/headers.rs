@@ -1,7 +1,7 @@
 //! Headers that are not whole, or say what cannot be.
 
 use super::super::writer::{connection, fields, message, record, sized};
-use super::{problem_of, problems_of};
+use super::between::{problem_of, problems_of};
 
 #[test]
 fn headers_that_are_not_whole() {

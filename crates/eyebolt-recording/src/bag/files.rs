@@ -1,11 +1,10 @@
-//! Which files a bag is, and of which kind each is.
+//! Which files a bag is.
 
-use super::super::{BagKind, mcap, sqlite, zstd};
+use super::kind::magic;
 use crate::error::RecordingError;
 use crate::file::read_text;
 use serde::Deserialize;
 use std::fs::File;
-use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// Name of the file that ROS 2 puts beside the files of a bag.
@@ -15,7 +14,8 @@ pub(super) const METADATA: &str = "metadata.yaml";
 /// like one.
 pub fn is_bag(path: &Path) -> bool {
     if !path.is_dir() {
-        return magic(path).is_some();
+        let known = File::open(path).and_then(magic);
+        return known.is_ok_and(|known| known.is_some());
     }
     path.join(METADATA).is_file() || !files_in(path).is_empty()
 }
@@ -28,28 +28,6 @@ pub(super) fn of_bag(path: &Path) -> Result<Vec<PathBuf>, RecordingError> {
         listed_files(path)
     } else {
         one_file(path)
-    }
-}
-
-/// What a file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Magic {
-    Bag(BagKind),
-    Zstd,
-}
-
-/// What the first bytes of a file tell; `None` if it is no bag.
-pub(super) fn magic(path: &Path) -> Option<Magic> {
-    let mut bytes = Vec::new();
-    File::open(path).ok()?.take(16).read_to_end(&mut bytes).ok()?;
-    if bytes.starts_with(&mcap::MAGIC) {
-        Some(Magic::Bag(BagKind::Mcap))
-    } else if bytes.starts_with(sqlite::FILE_MAGIC) {
-        Some(Magic::Bag(BagKind::Sqlite))
-    } else if bytes.starts_with(b"#ROSBAG V") {
-        Some(Magic::Bag(BagKind::Ros1))
-    } else {
-        bytes.starts_with(&zstd::MAGIC).then_some(Magic::Zstd)
     }
 }
 
