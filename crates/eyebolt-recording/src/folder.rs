@@ -8,7 +8,7 @@ use crate::camera_info::CameraInfo;
 use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::frame::Frame;
-use crate::frame_source::{FrameSource, check_index};
+use crate::frame_source::FrameSource;
 use crate::joints::{Joints, read_joints};
 use crate::manifest::{Manifest, RobotSection};
 use crate::pattern::Pattern;

@@ -1,6 +1,7 @@
 //! What eyebolt tells of itself in the bags that it writes.
 
 use crate::error::RecordingError;
+use crate::frame_names::is_fit;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -15,7 +16,7 @@ pub(crate) const BACKGROUND_TOPIC: &str = "background_topic";
 pub(crate) fn check_names(path: &Path, names: &[String]) -> Result<(), RecordingError> {
     let mut known = BTreeSet::new();
     for name in names {
-        if !name.is_empty() && !name.contains(['/', '\\', '\0']) && known.insert(name.as_str()) {
+        if is_fit(name) && known.insert(name.as_str()) {
             continue;
         }
         let problem = format!("{name:?} cannot be part of the name of a file, or is there twice");

@@ -12,7 +12,6 @@ mod png;
 mod recording_writer;
 mod robot;
 
-pub(crate) use crate::own_metadata::BACKGROUND_TOPIC;
 pub use error::WriteError;
 pub use folder::write_folder;
 pub use mcap::{McapWriter, write_static_transforms};

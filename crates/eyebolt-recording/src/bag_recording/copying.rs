@@ -5,7 +5,7 @@ use super::scan::is_static;
 use crate::bag::{Bag, Message, Topic};
 use crate::error::RecordingError;
 use crate::frame_source::FrameSource;
-use crate::write::BACKGROUND_TOPIC;
+use crate::own_metadata::BACKGROUND_TOPIC;
 use eyebolt_geometry::PinholeCamera;
 use std::collections::BTreeMap;
 use std::path::Path;

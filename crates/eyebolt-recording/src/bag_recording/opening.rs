@@ -11,8 +11,8 @@ use crate::error::RecordingError;
 use crate::frame_names::check_names;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, WireReader, types};
+use crate::own_metadata::{BACKGROUND_TOPIC, check_names};
 use crate::provenance::ClockOffset;
-use crate::write::BACKGROUND_TOPIC;
 
 impl BagRecording {
     /// Whether the frames are of a rectified picture. By ROS's convention, these have a word for it

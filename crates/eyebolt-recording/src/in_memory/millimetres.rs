@@ -25,7 +25,7 @@ mod tests {
     #[test]
     fn millimetres_become_metres() {
         let depth = depth_from_millimetres(2, 2, &[0, 1250, u16::MAX, 65534]).unwrap();
-        assert_eq!(depth.depth_m(), [0.0, 1.25, 0.0, 65.534]);
+        assert_eq!(depth.depth_m(), [0.0, 1250.0 * 1e-3, 0.0, 65534.0 * 1e-3]);
         assert!(depth_from_millimetres(2, 2, &[1; 3]).is_err());
     }
 }

@@ -4,7 +4,7 @@ use super::sample::{
     Bag, CLOUD, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, MS, PIXELS, SIZE, START_NS, assert_says,
 };
 use super::writer;
-use eyebolt_recording::{BagOptions, Recording, WriteRobot, write_folder, write_mcap};
+use eyebolt_recording::{BagOptions, FrameSource, Recording, WriteRobot, write_folder, write_mcap};
 use std::fs::File;
 
 /// Sorted before the topic of the depth, so that whoever takes the first one takes this.

@@ -2,6 +2,7 @@
 
 use super::sample::{Bag, CAMERA_INFO, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, MS, SIZE, START_NS};
 use super::writer;
+use eyebolt_recording::FrameSource;
 
 fn info(bag: &mut Bag, topic: &str, frame: &str, size: (u32, u32), focal: f64) {
     let count = bag.on(topic).len() as i64;

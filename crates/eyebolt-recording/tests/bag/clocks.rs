@@ -4,6 +4,7 @@ use super::sample::{
     Bag, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, MS, Opened, PIXELS, SIZE, START_NS, position,
 };
 use super::writer;
+use eyebolt_recording::FrameSource;
 
 const JOINTS: &str = "/joint_states";
 

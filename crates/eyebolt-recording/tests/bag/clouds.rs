@@ -2,7 +2,7 @@
 
 use super::sample::{Bag, CLOUD, DEPTH_TOPIC, INFO_TOPIC, MS, SIZE, START_NS, assert_says};
 use super::writer;
-use eyebolt_recording::{CloudFrame, Range};
+use eyebolt_recording::{CloudFrame, FrameSource, Range};
 
 const TOPIC: &str = "/camera/points";
 

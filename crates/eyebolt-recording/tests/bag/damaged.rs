@@ -1,7 +1,7 @@
 //! Damaged messages and files, with and without `partial`.
 
 use super::sample::{Bag, DEPTH_TOPIC, INFO_TOPIC, assert_says};
-use eyebolt_recording::{BagOptions, BagRecording, Recording};
+use eyebolt_recording::{BagOptions, BagRecording, FrameSource, Recording};
 
 #[test]
 fn a_damaged_frame_is_an_error_or_dropped() {

@@ -4,7 +4,7 @@ use super::sample::{Bag, CLOUD, DEPTH_TOPIC, FRAME, INFO_TOPIC, MS, SIZE, START_
 use super::writer;
 use super::writer::Message;
 use eyebolt_recording::{
-    BagOptions, Recording, RecordingError, WriteError, WriteRobot, write_folder,
+    BagOptions, FrameSource, Recording, RecordingError, WriteError, WriteRobot, write_folder,
 };
 
 /// Makes it a compressed image, of which only the reading tells that it has no depth.

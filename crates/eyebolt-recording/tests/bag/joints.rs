@@ -1,6 +1,7 @@
 //! Joint states as publishers tell them.
 
 use super::sample::{Bag, INFO_TOPIC, MS, START_NS, position};
+use eyebolt_recording::FrameSource;
 
 fn without_joints() -> Bag {
     Bag::default().with_depth().with_info(INFO_TOPIC)

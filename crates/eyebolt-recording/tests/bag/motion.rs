@@ -1,7 +1,7 @@
 //! Frames are taken while the arm stands still.
 
 use super::sample::{Bag, DEPTH_TOPIC, MS, START_NS, position};
-use eyebolt_recording::DropReason;
+use eyebolt_recording::{DropReason, FrameSource};
 use proptest::prelude::*;
 
 #[test]

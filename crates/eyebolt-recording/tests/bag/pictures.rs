@@ -2,6 +2,7 @@
 
 use super::sample::{Bag, DEPTH_TOPIC, FRAME, IMAGE, MS, PIXELS, SIZE, START_NS, assert_says};
 use super::writer;
+use eyebolt_recording::FrameSource;
 
 /// Replaces every depth image.
 fn with_depth(encoding: &str, data: &[u8]) -> Bag {

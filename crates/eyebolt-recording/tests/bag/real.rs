@@ -1,6 +1,6 @@
 //! Bags of a real arm, where they are at hand, against the folder that they were made of.
 
-use eyebolt_recording::{BagOptions, BagRecording, CameraInfo, Range};
+use eyebolt_recording::{BagOptions, BagRecording, CameraInfo, FrameSource, Range};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 

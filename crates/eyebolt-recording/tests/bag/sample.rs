@@ -2,7 +2,8 @@
 
 use super::writer::{self, Message, write_mcap};
 use eyebolt_recording::{
-    BagOptions, BagRecording, Range, RecordingError, StaticTransform, static_transforms,
+    BagOptions, BagRecording, FrameSource, Range, RecordingError, StaticTransform,
+    static_transforms,
 };
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -5,6 +5,7 @@ use super::sample::{
     START_NS, STRING,
 };
 use super::writer;
+use eyebolt_recording::FrameSource;
 
 fn one_depth(bag: &mut Bag, topic: &str) {
     let data = writer::depth(START_NS, FRAME, SIZE, &[1.0; PIXELS]);

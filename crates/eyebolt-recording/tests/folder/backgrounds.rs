@@ -1,6 +1,7 @@
 //! Depth of the scene without the robot.
 
 use crate::sample::{HEIGHT, PIXELS, Sample, WIDTH, assert_says, npy_f32, png_u16};
+use eyebolt_recording::FrameSource;
 
 /// Of two backgrounds, 9 and 10.
 fn sample() -> Sample {

@@ -2,7 +2,7 @@
 
 use crate::clouds::{bits, fixtures, pcd, ply, with_cloud};
 use crate::sample::assert_says;
-use eyebolt_recording::{Frame, RecordingError};
+use eyebolt_recording::{Frame, FrameSource, RecordingError};
 use proptest::prelude::*;
 use std::fs;
 

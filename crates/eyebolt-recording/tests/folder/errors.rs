@@ -2,7 +2,7 @@
 
 use crate::sample::{HEIGHT, PIXELS, Sample, WIDTH, assert_says, npy, npy_f32, npy_f64, npy_u16};
 use crate::sample::{npy_with_header, png, png_u16};
-use eyebolt_recording::Folder;
+use eyebolt_recording::{Folder, FrameSource};
 use png::{BitDepth, ColorType};
 
 /// A depth recording whose description has been changed.

@@ -2,6 +2,7 @@
 
 use crate::joint_files::{with_files, with_joints, with_table};
 use crate::sample::assert_says;
+use eyebolt_recording::FrameSource;
 use proptest::prelude::*;
 
 #[track_caller]

@@ -1,6 +1,7 @@
 //! Joints in CSV and JSON are those of NPY.
 
 use crate::sample::{Sample, npy_f64};
+use eyebolt_recording::FrameSource;
 use proptest::prelude::*;
 
 const NPY: &str = "joints_{}.npy";

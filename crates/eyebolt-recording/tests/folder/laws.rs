@@ -2,7 +2,7 @@
 
 use crate::sample::{HEIGHT, PIXELS, Sample, WIDTH, npy, npy_f32, npy_f64, npy_u16, png};
 use crate::sample::{png_u16, png_with_palette};
-use eyebolt_recording::{Folder, Frame, Range};
+use eyebolt_recording::{Folder, Frame, FrameSource, Range};
 use png::{BitDepth, ColorType};
 use proptest::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Clouds of the Point Cloud Library, where they are at hand, as a Python script read them.
 
-use eyebolt_recording::{Folder, Range};
+use eyebolt_recording::{Folder, FrameSource, Range};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Write as _;

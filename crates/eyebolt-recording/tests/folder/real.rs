@@ -1,6 +1,6 @@
 //! A recording of a real arm, where it is at hand.
 
-use eyebolt_recording::{Folder, Range};
+use eyebolt_recording::{Folder, FrameSource, Range};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;

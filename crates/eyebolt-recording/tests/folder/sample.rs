@@ -1,6 +1,6 @@
 //! A small recording in a temporary folder, to be read or broken.
 
-use eyebolt_recording::{Folder, Frame, RecordingError};
+use eyebolt_recording::{Folder, Frame, FrameSource, RecordingError};
 use png::{BitDepth, ColorType};
 use std::fs;
 use std::path::{Path, PathBuf};
