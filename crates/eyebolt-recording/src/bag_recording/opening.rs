@@ -8,7 +8,6 @@ use super::{BagOptions, BagRecording, pair, skew};
 use crate::bag::Bag;
 use crate::camera_info::CameraInfo;
 use crate::error::RecordingError;
-use crate::frame_names::check_names;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{CameraInfoMessage, WireReader, types};
 use crate::own_metadata::{BACKGROUND_TOPIC, check_names};
