@@ -3,10 +3,11 @@
 mod error;
 mod path;
 mod places;
+mod remedy;
 
 pub use error::ResolveError;
+pub use remedy::Remedy;
 
-use crate::input::Input;
 use path::{is_called, percent_decoded, stays_inside};
 use places::Places;
 use std::path::{Path, PathBuf};
@@ -56,7 +57,7 @@ impl PackageRoots {
         self
     }
 
-    /// Adds `NAME=FOLDER` or `FOLDER`, as [`Input::PACKAGE_PATH`] has it.
+    /// Adds `NAME=FOLDER` or `FOLDER`, as [`Input::PACKAGE_PATH`](crate::Input::PACKAGE_PATH) has it.
     #[must_use]
     pub fn with_argument(self, argument: &str) -> Self {
         match argument.split_once('=') {
@@ -135,19 +136,11 @@ impl PackageRoots {
         } else if directory.is_none() {
             return Err(ResolveError::Escapes { url: url.to_owned() });
         }
-        let (folder, file) = (Input::PACKAGE_PATH, Input::ROBOT);
         let remedy = match directory {
-            Some(_) => {
-                format!(
-                    "put the file there, or give the folder that this path starts in with {folder}"
-                )
-            }
-            None => format!(
-                "the description came without a folder: give the one that this path starts in \
-                 with {folder}, or the URDF as a file with {file}"
-            ),
+            Some(_) => Remedy::GiveFolder,
+            None => Remedy::GiveFolderOrUrdf,
         };
-        Ok(Places { paths, remedy, input: Some(folder) })
+        Ok(Places { paths, remedy })
     }
 
     fn package_places(
@@ -177,21 +170,15 @@ impl PackageRoots {
             roots.push(above.join(name));
         }
         let paths = roots.into_iter().map(|root| root.join(rest)).collect();
-        let input = Input::PACKAGE_PATH;
-        let remedy = format!("give the folder with {input} as {name}=FOLDER");
-        Ok(Places { paths, remedy, input: Some(input) })
+        Ok(Places { paths, remedy: Remedy::GivePackage(name.to_owned()) })
     }
 }
 
 /// The one place of an absolute path.
 fn absolute(path: PathBuf, directory: Option<&Path>) -> Places {
-    let (remedy, input) = match directory {
-        Some(_) => ("put the file there or correct the path in the URDF".to_owned(), None),
-        None => {
-            let file = Input::ROBOT;
-            let remedy = format!("correct the path in the URDF and give it as a file with {file}");
-            (remedy, Some(file))
-        }
+    let remedy = match directory {
+        Some(_) => Remedy::CorrectPath,
+        None => Remedy::GiveCorrected,
     };
-    Places { paths: vec![path], remedy, input }
+    Places { paths: vec![path], remedy }
 }

@@ -1,5 +1,6 @@
 //! Why a mesh URL leads to no file that may be read.
 
+use super::remedy::Remedy;
 use crate::input::Input;
 use std::path::PathBuf;
 
@@ -15,9 +16,7 @@ pub enum ResolveError {
         /// Every file that was tried.
         looked_at: Vec<PathBuf>,
         /// What to do.
-        remedy: String,
-        /// What would help, where that is an input.
-        input: Option<Input>,
+        remedy: Remedy,
     },
     /// The path leaves its package.
     #[error(
@@ -59,7 +58,7 @@ impl ResolveError {
     /// The input that would help.
     pub fn input(&self) -> Option<Input> {
         match self {
-            Self::NotFound { input, .. } => *input,
+            Self::NotFound { remedy, .. } => remedy.input(),
             Self::Outside { .. } => Some(Input::PACKAGE_PATH),
             Self::Escapes { .. } | Self::Unsupported { .. } => Some(Input::ROBOT),
         }

@@ -1,15 +1,13 @@
 //! Which of several places has the file.
 
 use super::error::ResolveError;
-use crate::input::Input;
+use super::remedy::Remedy;
 use std::path::{Path, PathBuf};
 
 /// Where the file that a URL means may lie, and what to do if it does not.
 pub(super) struct Places {
     pub(super) paths: Vec<PathBuf>,
-    pub(super) remedy: String,
-    /// The input that the remedy is about.
-    pub(super) input: Option<Input>,
+    pub(super) remedy: Remedy,
 }
 
 impl Places {
@@ -39,7 +37,7 @@ impl Places {
     }
 
     fn not_found(self, url: &str) -> ResolveError {
-        let Self { paths, remedy, input } = self;
-        ResolveError::NotFound { url: url.to_owned(), looked_at: paths, remedy, input }
+        let Self { paths, remedy } = self;
+        ResolveError::NotFound { url: url.to_owned(), looked_at: paths, remedy }
     }
 }
