@@ -1,9 +1,4 @@
-//! What a network is run on: features, and who is whose neighbour.
-
-mod points;
-mod voxels;
-
-pub use points::Sampling;
+//! A batch as it is handed to an executor.
 
 use crate::coordinates::KernelMap;
 use crate::graph::{Domain, Graph, MapId, MapSpec, Node, SampleLevel, Source};
@@ -55,7 +50,12 @@ impl Shape {
 
 impl Batch {
     /// Rows of each domain, each map and each input of a graph, in its order.
-    fn new(graph: &Graph, rows: Vec<usize>, maps: Vec<Map>, inputs: Vec<Matrix>) -> Self {
+    pub(super) fn new(
+        graph: &Graph,
+        rows: Vec<usize>,
+        maps: Vec<Map>,
+        inputs: Vec<Matrix>,
+    ) -> Self {
         Self { id: identity::fresh(), made_for: Shape::of(graph), rows, maps, inputs }
     }
 
@@ -107,7 +107,7 @@ impl Batch {
 }
 
 /// The features of the rows of a domain, as an input takes them.
-fn features_for(
+pub(super) fn features_for(
     graph: &Graph,
     input: &Node,
     domain: Domain,

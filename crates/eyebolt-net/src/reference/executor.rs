@@ -1,13 +1,8 @@
-//! A plain executor, generic over the precision: every operation as it is defined, one loop after
-//! the other. What other executors are compared with, and in 64 bits what gradients are.
+//! The executor.
 
-mod backward;
-mod forward;
-mod ops;
-mod real;
-
-pub use real::Real;
-
+use super::case::Case;
+use super::real::Real;
+use super::{backward, forward};
 use crate::executor::{
     Executor, Forward, Gradients, OutputGradients, PassOptions, check, check_output_gradients,
     check_outputs, check_training,
@@ -19,37 +14,6 @@ use std::marker::PhantomData;
 /// The plain executor, in precision `T`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reference<T>(PhantomData<T>);
-
-/// A graph on a batch with values of its own for parameters and inputs, in precision `T`.
-#[derive(Clone, Copy, Debug)]
-pub struct Case<'a, T> {
-    /// The network.
-    pub graph: &'a Graph,
-    /// In the graph's order.
-    pub parameters: &'a [Vec<T>],
-    /// Whose rows and maps are used.
-    pub batch: &'a Batch,
-    /// In place of those of the batch, of the same shapes.
-    pub inputs: &'a [Matrix<T>],
-}
-
-impl<T: Real> Case<'_, T> {
-    fn check(&self) -> Result<(), Error> {
-        if !self.batch.is_for(self.graph) || !self.graph.has_parameters(self.parameters) {
-            return Err(Error::input("batch or parameters", "made for another network"));
-        }
-        let shape = |matrix: &Matrix<T>| (matrix.rows(), matrix.channels());
-        let expected = self.batch.inputs().iter().map(|m| (m.rows(), m.channels()));
-        if !self.inputs.iter().map(shape).eq(expected) {
-            return Err(Error::input("inputs", "not of the shapes of those of the batch"));
-        }
-        Ok(())
-    }
-
-    fn outputs(&self, values: &[Matrix<T>]) -> Vec<Matrix<T>> {
-        self.graph.outputs().iter().map(|output| values[output.0].clone()).collect()
-    }
-}
 
 impl<T: Real> Reference<T> {
     /// Of this precision.

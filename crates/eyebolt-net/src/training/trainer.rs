@@ -1,12 +1,7 @@
-//! Learning: optimisers, schedules, steps, checkpoints.
+//! A network while it learns.
 
-mod checkpoint;
-mod optimiser;
-mod schedule;
-
-pub use optimiser::{Optimiser, Rule};
-pub use schedule::Schedule;
-
+use super::optimiser::{Optimiser, Rule};
+use super::schedule::Schedule;
 use crate::losses::Loss;
 use crate::random::Random;
 use crate::{Batch, Error, Executor, Forward, Gradients, Graph, Matrix, Parameters, PassOptions};
@@ -18,11 +13,11 @@ const LARGEST_GRADIENT: f32 = 1e18;
 /// [checkpoint](Trainer::checkpoint), so that a run goes on as if nothing had been.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trainer {
-    parameters: Parameters,
-    optimiser: Optimiser,
-    schedule: Schedule,
-    seed: u64,
-    step: u64,
+    pub(super) parameters: Parameters,
+    pub(super) optimiser: Optimiser,
+    pub(super) schedule: Schedule,
+    pub(super) seed: u64,
+    pub(super) step: u64,
 }
 
 impl Trainer {

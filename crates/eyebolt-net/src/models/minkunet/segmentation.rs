@@ -1,41 +1,12 @@
-//! The MinkUNet family (Choy, Gwak and Savarese, *4D spatio-temporal ConvNets: Minkowski
-//! convolutional neural networks*, CVPR 2019, with the names and layers of its published code).
+//! The way down and up again, for segmentation.
 
-mod blocks;
-mod checks;
-mod encoder;
-mod published;
-
-pub use encoder::MinkEncoder;
-
+use super::blocks::{Block, HEAD_SLOPE, convolution_norm_relu, stage};
+use super::checks;
+use super::encoder::MinkEncoder;
 use crate::Error;
 use crate::coordinates::{Kernel, KernelSpec};
 use crate::graph::{Graph, GraphBuilder, NodeId};
-use blocks::{convolution_norm_relu, stage};
 use serde::{Deserialize, Serialize};
-
-/// Slope of negative values in heads.
-const HEAD_SLOPE: f32 = 0.01;
-
-/// What a stage is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Block {
-    /// Two convolutions.
-    #[doc(alias = "BasicBlock")]
-    Basic,
-    /// One of three voxels between two of one; four times as many channels leave it.
-    Bottleneck,
-}
-
-impl Block {
-    fn expansion(self) -> usize {
-        match self {
-            Self::Basic => 1,
-            Self::Bottleneck => 4,
-        }
-    }
-}
 
 /// How logits are made.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -77,15 +48,6 @@ pub struct MinkUNet {
 }
 
 impl MinkUNet {
-    /// A network by its published name: `minkunet14a` to `d`, `18a`, `b`, `d`, `34a` to `c`, `50`,
-    /// `101`. `minkunet18d` is the one of Sefercik and Akgun.
-    ///
-    /// # Errors
-    /// If there is no such network.
-    pub fn named(name: &str, inputs: usize, outputs: usize) -> Result<Self, Error> {
-        published::minkunet(name, inputs, outputs)
-    }
-
     /// For segmentation: logits of every point, by its voxel.
     ///
     /// A loss over them weighs a voxel by the points in it, and points are what counts in the end.

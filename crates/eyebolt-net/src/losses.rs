@@ -1,0 +1,11 @@
+//! What training makes small. Every loss comes with its gradient.
+
+mod classes;
+mod loss;
+mod of_values;
+mod rotation;
+
+pub use classes::cross_entropy;
+pub use loss::Loss;
+pub use of_values::smooth_l1;
+pub use rotation::{PoseLoss, pose_loss};
