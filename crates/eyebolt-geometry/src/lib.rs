@@ -13,6 +13,7 @@ mod mask;
 mod mean;
 mod normals;
 mod projection_fit;
+mod ray_table;
 mod symmetric;
 mod tangent;
 mod transform;
@@ -20,7 +21,7 @@ mod voxel;
 
 pub use camera::{CameraError, PinholeCamera};
 pub use cloud::{BoundingBox, Cloud, optical_from_body};
-pub use depth_image::{DepthImage, RayTable};
+pub use depth_image::DepthImage;
 pub use distortion::Distortion;
 pub use frame::{Base, Camera, EndEffector, Frame, Link};
 pub use image::ImageError;
@@ -28,6 +29,7 @@ pub use mask::Mask;
 pub use mean::{MeanError, intrinsic_mean_rotation, mean_rotation, mean_transform};
 pub use normals::{NormalOptions, NormalsError, fast_normals, normals};
 pub use projection_fit::{ProjectionFit, ProjectionFitError, fit_projection};
+pub use ray_table::RayTable;
 pub use tangent::{
     Tangent, left_jacobian, rotation_exp, rotation_left_jacobian, rotation_left_jacobian_inverse,
     rotation_log,

@@ -5,13 +5,18 @@
 //! (Hartley and Zisserman, "Multiple View Geometry in Computer Vision", 2004, sections 4.1, 4.4
 //! and 6.2, with the centre of the camera at the origin).
 
+mod error;
 mod linear;
+mod projection;
 mod refine;
 
-use crate::camera::{CameraError, PinholeCamera};
+pub use error::ProjectionFitError;
+
+use crate::camera::PinholeCamera;
 use crate::cloud::Cloud;
 use crate::distortion::Distortion;
 use nalgebra::{Point2, UnitQuaternion, Vector3};
+use projection::{Projection, Sighting};
 
 /// What [`fit_projection`] found.
 #[derive(Clone, Debug)]
@@ -25,44 +30,6 @@ pub struct ProjectionFit {
     pub residual_px: f64,
 }
 
-/// Why a cloud does not tell its camera.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ProjectionFitError {
-    /// The cloud has no grid.
-    #[error("the cloud is not organised as an image: give the camera's intrinsics")]
-    NoGrid,
-    /// Too few valid points.
-    #[error("{valid} valid points, {required} are needed to fit the camera")]
-    TooFewPoints {
-        /// How many there are.
-        valid: usize,
-        /// How many are needed.
-        required: usize,
-    },
-    /// The points lie in too small a part of the image, or are not in general position.
-    #[error("the points do not determine a camera: they lie along a line or are not an image")]
-    Degenerate,
-    /// The image is mirrored: no rotation maps the cloud to the pixels.
-    #[error("rows or columns of the cloud run the wrong way: the image is mirrored")]
-    Mirrored,
-    /// No pinhole at the origin explains the points.
-    #[error(
-        "no pinhole camera at the cloud's origin fits: {outliers} of {points} points are off by \
-         more than 3 pixels, the others by {residual_px:.3} pixels rms"
-    )]
-    NotAPinhole {
-        /// Root mean square error of the points that fit, pixels.
-        residual_px: f64,
-        /// Points that do not fit.
-        outliers: usize,
-        /// Points looked at.
-        points: usize,
-    },
-    /// The numbers found do not make a camera.
-    #[error("the fit gave no camera: {0}")]
-    Camera(#[from] CameraError),
-}
-
 /// Fewest valid points.
 const MIN_POINTS: usize = 100;
 /// Most points looked at, spread evenly over the valid ones.
@@ -73,34 +40,6 @@ const OUTLIER_PX: f64 = 3.0;
 const MAX_OUTLIER_SHARE: f64 = 0.05;
 /// Largest root mean square error of the others, pixels.
 const MAX_RESIDUAL_PX: f64 = 1.0;
-
-/// A pixel and the unit direction of its point in the frame of the cloud.
-struct Sighting {
-    pixel: Point2<f64>,
-    direction: Vector3<f64>,
-}
-
-/// Intrinsics without skew (pixels) and the rotation from the cloud to the camera.
-#[derive(Clone, Copy)]
-struct Projection {
-    fx: f64,
-    fy: f64,
-    cx: f64,
-    cy: f64,
-    rotation: UnitQuaternion<f64>,
-}
-
-impl Projection {
-    /// Projection minus pixel; infinite for a point that is not in front.
-    fn error_px(&self, sighting: &Sighting) -> f64 {
-        let p = self.rotation * sighting.direction;
-        if p.z <= 0.0 {
-            return f64::INFINITY;
-        }
-        let projected = Point2::new(self.fx * p.x / p.z + self.cx, self.fy * p.y / p.z + self.cy);
-        (projected - sighting.pixel).norm()
-    }
-}
 
 /// Finds the intrinsics, and the rotation to the optical frame, of the camera that saw `cloud`.
 ///

@@ -44,9 +44,8 @@ impl Cpu {
         Self::with_isa(Isa::detect())
     }
 
-    /// With these instructions; the scalar ones if this CPU does not have them.
+    /// With these instructions.
     pub fn with_isa(isa: Isa) -> Self {
-        let isa = if Isa::available().contains(&isa) { isa } else { Isa::Scalar };
         Self { isa, buffers: Buffers::default() }
     }
 }

@@ -45,6 +45,7 @@
 //!
 //! With other classes, or the encoder alone, [`load_matching`] takes what fits.
 
+mod complete;
 mod entry;
 mod layout;
 mod matching;
@@ -53,45 +54,9 @@ mod numbers;
 mod tensors;
 mod written;
 
+pub use complete::{from_bytes, from_minkowski, to_bytes};
 pub(crate) use entry::Entry;
 pub use layout::Layout;
 pub use matching::{Matching, OtherShape, load_matching};
 pub(crate) use tensors::Tensors;
 pub(crate) use written::{entries, serialise};
-
-use crate::{Error, Graph, Parameters};
-
-const FILE: &str = "weights.safetensors";
-
-/// The parameters as safetensors of 32 bits.
-///
-/// # Errors
-/// If the graph is another one, or a value is not finite: what is written can be read.
-pub fn to_bytes(graph: &Graph, parameters: &Parameters) -> Result<Vec<u8>, Error> {
-    serialise(FILE, entries(FILE, graph, "", parameters.values())?, &[])
-}
-
-/// The parameters of a graph from safetensors of 16 (float16 or bfloat16) or 32 bits.
-///
-/// # Errors
-/// If the bytes are no safetensors, a parameter is missing, has another shape, another type or a
-/// value that is not finite, or there is a tensor more.
-pub fn from_bytes(graph: &Graph, bytes: &[u8]) -> Result<Parameters, Error> {
-    complete(graph, bytes, Layout::Eyebolt)
-}
-
-/// The parameters of a graph from a state dict of MinkowskiEngine as safetensors; how it differs
-/// from ours stands at the head of [this module](self).
-///
-/// # Errors
-/// As [`from_bytes`].
-pub fn from_minkowski(graph: &Graph, bytes: &[u8]) -> Result<Parameters, Error> {
-    complete(graph, bytes, Layout::MinkowskiEngine)
-}
-
-fn complete(graph: &Graph, bytes: &[u8], layout: Layout) -> Result<Parameters, Error> {
-    let mut tensors = layout.open(bytes)?;
-    let values = tensors.take_all(graph, "", |spec| layout.entry(spec))?;
-    tensors.finish()?;
-    Parameters::new(graph, values)
-}

@@ -8,6 +8,7 @@
 // Lanes side by side are what the compiler turns into vectors.
 #![allow(clippy::needless_range_loop)]
 
+mod bounds;
 mod build;
 mod bvh;
 mod eye;

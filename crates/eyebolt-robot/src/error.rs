@@ -1,5 +1,6 @@
 //! What can be wrong with a robot description or with joint positions.
 
+use crate::input::Input;
 use crate::packages::ResolveError;
 use std::path::PathBuf;
 
@@ -66,19 +67,19 @@ pub enum RobotError {
         source: ResolveError,
     },
     /// A link was asked for that the robot does not have.
-    #[error("{file}: no link `{name}` for {flag}; the links are {}", known.join(", "))]
+    #[error("{file}: no link `{name}` for {input}; the links are {}", known.join(", "))]
     UnknownLink {
         /// Where the description came from.
         file: String,
         /// The link asked for.
         name: String,
-        /// The option that names it.
-        flag: &'static str,
+        /// What names it.
+        input: Input,
         /// All links.
         known: Vec<String>,
     },
     /// More than one link could be meant.
-    #[error("{file}: {what}: {}; name one with {flag}", candidates.join(", "))]
+    #[error("{file}: {what}: {}; name one with {input}", candidates.join(", "))]
     Ambiguous {
         /// Where the description came from.
         file: String,
@@ -86,13 +87,15 @@ pub enum RobotError {
         what: &'static str,
         /// The links to choose from.
         candidates: Vec<String>,
-        /// The option to name it with.
-        flag: &'static str,
+        /// What to name it with.
+        input: Input,
     },
     /// The end-effector does not hang on the base by a moving joint.
     #[error(
         "{file}: no moving joint leads from base `{base}` down to end-effector `{end_effector}`; \
-         name other links with --base and --end-effector"
+         name other links with {} and {}",
+        Input::BASE,
+        Input::END_EFFECTOR
     )]
     NoArm {
         /// Where the description came from.
@@ -102,6 +105,23 @@ pub enum RobotError {
         /// The end-effector link.
         end_effector: String,
     },
+}
+
+impl RobotError {
+    /// The input that is at fault, or that would help: for a description that cannot be used, another
+    /// description.
+    pub fn input(&self) -> Option<Input> {
+        match self {
+            Self::UnknownLink { input, .. } | Self::Ambiguous { input, .. } => Some(*input),
+            Self::NoArm { .. } => Some(Input::END_EFFECTOR),
+            Self::Mesh { source, .. } => source.input(),
+            Self::Read { .. }
+            | Self::TooLarge { .. }
+            | Self::Xml { .. }
+            | Self::Field { .. }
+            | Self::Tree { .. } => Some(Input::ROBOT),
+        }
+    }
 }
 
 /// Joint positions that do not tell where the links are.

@@ -26,6 +26,6 @@ pub use joint_positions::JointPositions;
 pub use mesh::{
     MAX_MESH_BYTES, MAX_TRIANGLES, MeshError, Prefer, TriangleMesh, link_mesh, load_body,
 };
-pub use packages::{PackageRoots, ResolveError};
+pub use packages::{PackageRoots, Remedy, ResolveError};
 pub use robot::{Body, Joint, JointKind, JointLimits, Link, Mimic, Robot, Shape};
 pub use urdf::MAX_URDF_BYTES;

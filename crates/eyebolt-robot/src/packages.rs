@@ -1,6 +1,16 @@
 //! Where mesh URLs of a URDF lead.
 
-use std::path::{Component, Path, PathBuf};
+mod error;
+mod path;
+mod places;
+mod remedy;
+
+pub use error::ResolveError;
+pub use remedy::Remedy;
+
+use path::{is_called, percent_decoded, stays_inside};
+use places::Places;
+use std::path::{Path, PathBuf};
 
 /// Folders in which `package://name/...` is looked up, in this order: packages given by name,
 /// search folders, ament prefixes, then the folders above the URDF that are called `name`.
@@ -9,51 +19,13 @@ pub struct PackageRoots {
     named: Vec<(String, PathBuf)>,
     search: Vec<PathBuf>,
     ament: Vec<PathBuf>,
-}
-
-/// A mesh URL that leads to no file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ResolveError {
-    /// No such file in any of the places.
-    #[error("mesh `{url}` not found; looked for {}; {remedy}", places(looked_at))]
-    NotFound {
-        /// As the URDF has it.
-        url: String,
-        /// Every file that was tried.
-        looked_at: Vec<PathBuf>,
-        /// What to do.
-        remedy: String,
-    },
-    /// The path leaves its package.
-    #[error(
-        "mesh `{url}` leaves its package by `..`; write package://NAME/path without leaving NAME"
-    )]
-    Escapes {
-        /// As the URDF has it.
-        url: String,
-    },
-    /// Not a URL that names a file of this machine.
-    #[error(
-        "mesh `{url}`: {problem}; write package://NAME/path, file:///path or a path relative to the URDF"
-    )]
-    Unsupported {
-        /// As the URDF has it.
-        url: String,
-        /// What is wrong.
-        problem: &'static str,
-    },
-}
-
-fn places(paths: &[PathBuf]) -> String {
-    if paths.is_empty() {
-        return "it nowhere: no folders are known".to_owned();
-    }
-    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
+    /// Whether a description that came with a recording may name files elsewhere.
+    outside_files: bool,
 }
 
 impl PackageRoots {
-    /// No roots: only relative paths, `file://` and packages above the URDF are found.
+    /// No roots: only relative paths, `file://` and packages above the URDF are found, and nothing
+    /// that a recording's description names.
     pub fn new() -> Self {
         Self::default()
     }
@@ -68,7 +40,7 @@ impl PackageRoots {
                 .filter(|path| !path.as_os_str().is_empty())
                 .collect::<Vec<_>>()
         };
-        Self { named: Vec::new(), search: split(ros_package_path), ament: split(ament_prefix_path) }
+        Self { search: split(ros_package_path), ament: split(ament_prefix_path), ..Self::default() }
     }
 
     /// Adds package `name`, whose files lie in `directory`.
@@ -85,7 +57,7 @@ impl PackageRoots {
         self
     }
 
-    /// Adds `NAME=FOLDER` or `FOLDER`, as the option `--package-path` has it.
+    /// Adds `NAME=FOLDER` or `FOLDER`, as [`Input::PACKAGE_PATH`](crate::Input::PACKAGE_PATH) has it.
     #[must_use]
     pub fn with_argument(self, argument: &str) -> Self {
         match argument.split_once('=') {
@@ -96,71 +68,87 @@ impl PackageRoots {
         }
     }
 
-    /// These roots first, then `other`'s.
+    /// These roots first, then `other`'s. Files outside are allowed where either allows them.
     #[must_use]
     pub fn then(mut self, other: Self) -> Self {
         self.named.extend(other.named);
         self.search.extend(other.search);
         self.ament.extend(other.ament);
+        self.outside_files |= other.outside_files;
+        self
+    }
+
+    /// Whether a description that came with a recording may name files outside these folders. It may
+    /// not, unless this says so: whoever made the recording could otherwise have any file of this
+    /// machine read.
+    #[must_use]
+    pub fn with_outside_files(mut self, allowed: bool) -> Self {
+        self.outside_files = allowed;
         self
     }
 
     /// The file that `url` means: `package://`, `model://`, `file://`, or a path, which is relative
     /// to `directory`, the folder of the URDF, or to a folder given. The file exists; nothing of it is read.
     ///
+    /// Without a `directory` the description came with a recording: unless
+    /// [`Self::with_outside_files`] allows others, the file lies inside one of the folders, `..` and
+    /// symbolic links resolved.
+    ///
     /// # Errors
     /// See [`ResolveError`].
     pub fn resolve(&self, url: &str, directory: Option<&Path>) -> Result<PathBuf, ResolveError> {
+        let places = self.places(url, directory)?;
+        if directory.is_some() || self.outside_files {
+            return places.first(url);
+        }
+        // Of a prefix, only what holds packages.
+        let shares: Vec<PathBuf> = self.ament.iter().map(|prefix| prefix.join("share")).collect();
+        let named = self.named.iter().map(|(_, directory)| directory);
+        places.first_inside(url, named.chain(&self.search).chain(&shares).map(PathBuf::as_path))
+    }
+
+    fn places(&self, url: &str, directory: Option<&Path>) -> Result<Places, ResolveError> {
         let unsupported = |problem| ResolveError::Unsupported { url: url.to_owned(), problem };
         if url.trim().is_empty() {
             return Err(unsupported("no file name"));
         }
         match url.split_once("://") {
-            Some(("package" | "model", path)) => self.resolve_package(url, path, directory),
+            Some(("package" | "model", path)) => self.package_places(url, path, directory),
             Some(("file", path)) => {
                 let path = percent_decoded(path.strip_prefix("localhost/").unwrap_or(path))
                     .ok_or_else(|| unsupported("bad %-escape"))?;
                 let path = Path::new("/").join(path.trim_start_matches('/'));
-                existing(url, vec![path], "correct the path in the URDF")
+                Ok(absolute(path, directory))
             }
             Some(_) => Err(unsupported("only package://, model:// and file:// are read")),
-            None => self.resolve_path(url, directory),
+            None if Path::new(url).is_absolute() => Ok(absolute(PathBuf::from(url), directory)),
+            None => self.path_places(url, directory),
         }
     }
 
-    /// A path: from the folder of the URDF, else from the folders given, where a description from a
-    /// topic or a copied one has its meshes.
-    fn resolve_path(&self, url: &str, directory: Option<&Path>) -> Result<PathBuf, ResolveError> {
-        if Path::new(url).is_absolute() {
-            let remedy = "put the file there or correct the path in the URDF";
-            return existing(url, vec![PathBuf::from(url)], remedy);
-        }
-        let mut places: Vec<PathBuf> = directory.map(|d| d.join(url)).into_iter().collect();
+    /// A relative path: from the folder of the URDF, else from the folders given, where a description
+    /// from a topic or a copied one has its meshes.
+    fn path_places(&self, url: &str, directory: Option<&Path>) -> Result<Places, ResolveError> {
+        let mut paths: Vec<PathBuf> = directory.map(|d| d.join(url)).into_iter().collect();
         if stays_inside(url) {
             let named = self.named.iter().map(|(_, directory)| directory);
-            places.extend(named.chain(&self.search).map(|root| root.join(url)));
+            paths.extend(named.chain(&self.search).map(|root| root.join(url)));
         } else if directory.is_none() {
             return Err(ResolveError::Escapes { url: url.to_owned() });
         }
         let remedy = match directory {
-            Some(_) => {
-                "put the file there, or give the folder that this path starts in with \
-                        --package-path FOLDER"
-            }
-            None => {
-                "the description came without a folder: give the one that this path starts in \
-                     with --package-path FOLDER, or the URDF as a file with --robot FILE"
-            }
+            Some(_) => Remedy::GiveFolder,
+            None => Remedy::GiveFolderOrUrdf,
         };
-        existing(url, places, remedy)
+        Ok(Places { paths, remedy })
     }
 
-    fn resolve_package(
+    fn package_places(
         &self,
         url: &str,
         path: &str,
         directory: Option<&Path>,
-    ) -> Result<PathBuf, ResolveError> {
+    ) -> Result<Places, ResolveError> {
         let (name, rest) = path.split_once('/').unwrap_or((path, ""));
         if name == ".." || !stays_inside(rest) {
             return Err(ResolveError::Escapes { url: url.to_owned() });
@@ -181,51 +169,16 @@ impl PackageRoots {
             roots.extend(is_called(above, name).then(|| above.to_owned()));
             roots.push(above.join(name));
         }
-        let places = roots.into_iter().map(|root| root.join(rest)).collect();
-        existing(url, places, &format!("give the folder with --package-path {name}=FOLDER"))
+        let paths = roots.into_iter().map(|root| root.join(rest)).collect();
+        Ok(Places { paths, remedy: Remedy::GivePackage(name.to_owned()) })
     }
 }
 
-fn is_called(directory: &Path, name: &str) -> bool {
-    directory.file_name().is_some_and(|last| last == name)
-}
-
-/// Whether no prefix of the relative path climbs above where it starts.
-fn stays_inside(path: &str) -> bool {
-    let mut depth = 0_i64;
-    Path::new(path).components().all(|component| {
-        match component {
-            Component::Normal(_) => depth += 1,
-            Component::ParentDir => depth -= 1,
-            Component::CurDir => {}
-            Component::RootDir | Component::Prefix(_) => depth = -1,
-        }
-        depth >= 0
-    })
-}
-
-fn existing(url: &str, places: Vec<PathBuf>, remedy: &str) -> Result<PathBuf, ResolveError> {
-    match places.iter().find(|place| place.is_file()) {
-        Some(found) => Ok(found.clone()),
-        None => Err(ResolveError::NotFound {
-            url: url.to_owned(),
-            looked_at: places,
-            remedy: remedy.to_owned(),
-        }),
-    }
-}
-
-fn percent_decoded(text: &str) -> Option<String> {
-    let mut bytes = text.bytes();
-    let mut decoded = Vec::with_capacity(text.len());
-    while let Some(byte) = bytes.next() {
-        decoded.push(if byte == b'%' {
-            let high = char::from(bytes.next()?).to_digit(16)?;
-            let low = char::from(bytes.next()?).to_digit(16)?;
-            u8::try_from(high * 16 + low).ok()?
-        } else {
-            byte
-        });
-    }
-    String::from_utf8(decoded).ok()
+/// The one place of an absolute path.
+fn absolute(path: PathBuf, directory: Option<&Path>) -> Places {
+    let remedy = match directory {
+        Some(_) => Remedy::CorrectPath,
+        None => Remedy::GiveCorrected,
+    };
+    Places { paths: vec![path], remedy }
 }

@@ -1,6 +1,5 @@
 //! The kinematic tree of a robot.
 
-use crate::error::RobotError;
 use eyebolt_geometry::{Transform, frame};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use std::path::PathBuf;
@@ -146,23 +145,6 @@ impl Robot {
     /// BLAKE3 hash of the URDF text, as 64 hexadecimal digits.
     pub fn urdf_hash(&self) -> &str {
         &self.urdf_hash
-    }
-
-    /// The arm between two links; `None` lets it be guessed.
-    ///
-    /// The guessed base is the first link with geometry on the way down from the root through fixed
-    /// joints. The guessed end-effector is the first link with geometry after the last joint of the
-    /// longest chain, or, where a gripper's joints follow, the link that carries them.
-    ///
-    /// # Errors
-    /// A link that does not exist, an end-effector that is not below the base through at least one
-    /// moving joint, or a guess with more than one answer: the error lists the candidates.
-    pub fn arm(
-        &self,
-        base: Option<&str>,
-        end_effector: Option<&str>,
-    ) -> Result<crate::Arm, RobotError> {
-        crate::Arm::new(self.clone(), base, end_effector)
     }
 
     /// The links that joints of any kind carry directly under `link`, with their joints.

@@ -34,8 +34,12 @@ impl Robot {
         parse(&text, &file, Some(directory), packages)
     }
 
-    /// Reads URDF text, such as a recording's `/robot_description`. Relative mesh paths start at
-    /// `directory`.
+    /// Reads URDF text. Relative mesh paths start at `directory`, the folder of the file that the
+    /// text is from.
+    ///
+    /// Without one, the text came with a recording, such as its `/robot_description`, and nobody of
+    /// this machine vouches for it: it may name files inside the folders of `packages` only, or
+    /// others if [`PackageRoots::with_outside_files`] allows it.
     ///
     /// # Errors
     /// See [`RobotError`]; each names the element and what to do.

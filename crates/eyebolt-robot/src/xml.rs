@@ -21,6 +21,11 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, (String, &'static str)> 
     })
 }
 
+/// First child called `name`, in any namespace.
+pub(crate) fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.tag_name().name() == name)
+}
+
 /// An element of a URDF and the words that messages use for it.
 #[derive(Clone)]
 pub(crate) struct Element<'a, 'input> {

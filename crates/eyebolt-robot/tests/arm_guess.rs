@@ -3,7 +3,7 @@
 
 mod common;
 
-use eyebolt_robot::Robot;
+use eyebolt_robot::{Input, Robot};
 
 fn guessed(robot: &Robot) -> (String, String) {
     let arm = robot.arm(None, None).unwrap();
@@ -82,8 +82,10 @@ fn a_lift_before_the_arm_belongs_to_the_arm() {
 #[test]
 fn two_arms_are_ambiguous_until_one_is_named() {
     let two = robot(&[chain("base", "left", "revolute", 6), chain("base", "right", "revolute", 6)]);
-    let error = two.arm(None, None).unwrap_err().to_string();
-    for word in ["left6", "right6", "--end-effector"] {
+    let error = two.arm(None, None).unwrap_err();
+    assert_eq!(error.input(), Some(Input::END_EFFECTOR));
+    let error = error.to_string();
+    for word in ["left6", "right6", "`end_effector`"] {
         assert!(error.contains(word), "{word} is not in {error}");
     }
     assert_eq!(two.arm(None, Some("left6")).unwrap().required_joints().len(), 6);
@@ -102,8 +104,10 @@ fn two_bases_are_ambiguous_until_the_end_effector_tells() {
         chain("right_base1", "right", "revolute", 6),
     );
     let robot = common::parse(&urdf).unwrap();
-    let error = robot.arm(None, None).unwrap_err().to_string();
-    for word in ["left_base1", "right_base1", "--base"] {
+    let error = robot.arm(None, None).unwrap_err();
+    assert_eq!(error.input(), Some(Input::BASE));
+    let error = error.to_string();
+    for word in ["left_base1", "right_base1", "`base`"] {
         assert!(error.contains(word), "{word} is not in {error}");
     }
     assert_eq!(robot.arm(None, Some("right6")).unwrap().base_name(), "right_base1");
@@ -112,10 +116,12 @@ fn two_bases_are_ambiguous_until_the_end_effector_tells() {
 #[test]
 fn names_must_exist_and_be_connected() {
     let robot = common::small_arm();
-    let error = robot.arm(Some("bse"), None).unwrap_err().to_string();
-    assert!(error.contains("`bse`") && error.contains("--base") && error.contains("pedestal"));
+    let error = robot.arm(Some("bse"), None).unwrap_err();
+    assert_eq!(error.input(), Some(Input::BASE));
+    let error = error.to_string();
+    assert!(error.contains("`bse`") && error.contains("`base`") && error.contains("pedestal"));
     let error = robot.arm(Some("hand"), Some("pedestal")).unwrap_err().to_string();
-    assert!(error.contains("no moving joint") && error.contains("--end-effector"), "{error}");
+    assert!(error.contains("no moving joint") && error.contains("`end_effector`"), "{error}");
     let error = robot.arm(Some("hand"), Some("tcp")).unwrap_err().to_string();
     assert!(error.contains("no moving joint"), "{error}");
 }

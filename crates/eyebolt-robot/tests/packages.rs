@@ -1,7 +1,7 @@
 //! Where mesh URLs lead.
 #![allow(clippy::unwrap_used)]
 
-use eyebolt_robot::{PackageRoots, ResolveError, Robot, RobotError, Shape};
+use eyebolt_robot::{Input, PackageRoots, ResolveError, Robot, RobotError, Shape};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -44,7 +44,9 @@ fn file_urls_and_paths() {
     let file = touch(folder.path().join("meshes/a b.stl"));
     let roots = PackageRoots::new();
     let url = format!("file://{}", file.display()).replace(' ', "%20");
-    assert_eq!(roots.resolve(&url, None).unwrap(), file);
+    let elsewhere = Some(Path::new("/nowhere"));
+    assert_eq!(roots.resolve(&url, elsewhere).unwrap(), file);
+    assert_eq!(roots.resolve(file.to_str().unwrap(), elsewhere).unwrap(), file);
     assert!(roots.resolve("../meshes/a b.stl", Some(&folder.path().join("meshes"))).is_ok());
     let error = roots.resolve("meshes/a b.stl", None).unwrap_err();
     assert!(error.to_string().contains("without a folder"), "{error}");
@@ -72,8 +74,10 @@ fn a_description_without_a_folder_finds_its_meshes_in_those_given() {
     let inner = PackageRoots::new().with_directory(folder.path().join("meshes"));
     let error = inner.resolve("../meshes/a.stl", None).unwrap_err();
     assert!(matches!(error, ResolveError::Escapes { .. }), "{error}");
-    let error = roots.resolve("meshes/b.stl", None).unwrap_err().to_string();
-    assert!(error.contains("--package-path") && error.contains("--robot"), "{error}");
+    let error = roots.resolve("meshes/b.stl", None).unwrap_err();
+    assert_eq!(error.input(), Some(Input::PACKAGE_PATH));
+    let text = error.to_string();
+    assert!(text.contains("`package_path`") && text.contains("`robot`"), "{text}");
 }
 
 #[test]
@@ -98,7 +102,7 @@ fn paths_stay_in_their_package() {
 }
 
 #[test]
-fn what_is_not_found_lists_places_and_the_option() {
+fn what_is_not_found_lists_places_and_the_input() {
     let urdf = format!(
         r#"<robot><link name="hand"><visual><geometry><mesh filename="{URL}"/></geometry></visual></link></robot>"#
     );
@@ -110,11 +114,12 @@ fn what_is_not_found_lists_places_and_the_option() {
         URL,
         "/nowhere/src/arm_description/meshes/a.stl",
         "/nowhere/install/share/arm_description/meshes/a.stl",
-        "--package-path arm_description=FOLDER",
+        "`package_path` as arm_description=FOLDER",
     ] {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
     assert!(matches!(error, RobotError::Mesh { .. }));
+    assert_eq!(error.input(), Some(Input::PACKAGE_PATH));
 }
 
 #[test]

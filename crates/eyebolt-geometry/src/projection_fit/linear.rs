@@ -1,6 +1,7 @@
 //! The direct linear transform and its RQ decomposition.
 
-use super::{Projection, ProjectionFitError, Sighting};
+use super::error::ProjectionFitError;
+use super::projection::{Projection, Sighting};
 use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, SymmetricEigen, UnitQuaternion};
 
 type Matrix9 = SMatrix<f64, 9, 9>;

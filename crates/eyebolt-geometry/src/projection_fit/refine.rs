@@ -1,6 +1,7 @@
 //! Gauss-Newton on the pixel error, without skew.
 
-use super::{Projection, ProjectionFitError, Sighting};
+use super::error::ProjectionFitError;
+use super::projection::{Projection, Sighting};
 use crate::tangent::rotation_exp;
 use nalgebra::{Matrix2x3, SMatrix, SVector, Vector2, Vector3};
 

@@ -1,6 +1,6 @@
 //! Batches of points, sampled level after level.
 
-use super::{Batch, Map, features_for};
+use super::prepared::{Batch, Map, features_for};
 use crate::graph::{Domain, Graph, MapSpec, Source};
 use crate::random::Random;
 use crate::row_map::{RowMap, Runs};

@@ -1,6 +1,6 @@
 //! Batches of voxels.
 
-use super::{Batch, Map, features_for};
+use super::prepared::{Batch, Map, features_for};
 use crate::coordinates::{Neighbours, VoxelSet, average_features};
 use crate::graph::{Domain, Graph, MapSpec, Source};
 use crate::row_map::{RowMap, Runs};

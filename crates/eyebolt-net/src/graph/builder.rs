@@ -1,11 +1,11 @@
 //! Adding operations one after the other, with shapes checked on the way.
 
-mod rows;
-
-use super::{
-    BatchNorm, Domain, Graph, MapId, MapSpec, Node, NodeId, Op, ParameterId, ParameterSpec, Role,
-    SampleLevel, Source, check,
-};
+use super::check;
+use super::domain::{Domain, MapSpec, SampleLevel, Source};
+use super::ids::{MapId, NodeId, ParameterId};
+use super::network::{Graph, Node};
+use super::op::{BatchNorm, Op};
+use super::parameter::{ParameterSpec, Role};
 use crate::Error;
 use crate::coordinates::KernelSpec;
 
@@ -50,7 +50,7 @@ use crate::coordinates::KernelSpec;
 /// ```
 #[derive(Debug, Default)]
 pub struct GraphBuilder {
-    graph: Graph,
+    pub(super) graph: Graph,
 }
 
 impl GraphBuilder {
@@ -199,7 +199,7 @@ impl GraphBuilder {
         Ok(self.graph)
     }
 
-    fn node(&self, id: NodeId) -> &Node {
+    pub(super) fn node(&self, id: NodeId) -> &Node {
         &self.graph.nodes[id.0]
     }
 
@@ -209,7 +209,7 @@ impl GraphBuilder {
         self.push(&name, op, vec![input], channels, domain)
     }
 
-    fn push(
+    pub(super) fn push(
         &mut self,
         name: &str,
         op: Op,
@@ -230,15 +230,20 @@ impl GraphBuilder {
         ParameterId(self.graph.parameters.len() - 1)
     }
 
-    fn domain(&mut self, domain: Domain) -> usize {
+    pub(super) fn domain(&mut self, domain: Domain) -> usize {
         place_of(&mut self.graph.domains, domain)
     }
 
-    fn map(&mut self, spec: MapSpec) -> MapId {
+    pub(super) fn map(&mut self, spec: MapSpec) -> MapId {
         MapId(place_of(&mut self.graph.maps, spec))
     }
 
-    fn expect_domain(&self, name: &str, input: NodeId, expected: Domain) -> Result<(), Error> {
+    pub(super) fn expect_domain(
+        &self,
+        name: &str,
+        input: NodeId,
+        expected: Domain,
+    ) -> Result<(), Error> {
         let found = self.graph.domains[self.node(input).domain];
         if found == expected {
             return Ok(());

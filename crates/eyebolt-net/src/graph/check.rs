@@ -1,6 +1,7 @@
 //! What is wrong with a graph as a whole.
 
-use super::{Graph, Op};
+use super::network::Graph;
+use super::op::Op;
 use crate::Error;
 use std::collections::BTreeSet;
 

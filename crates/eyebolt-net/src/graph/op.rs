@@ -1,6 +1,7 @@
 //! The operations.
 
-use super::{MapId, ParameterId, Source};
+use super::domain::Source;
+use super::ids::{MapId, ParameterId};
 
 /// Parameters and constants of a batch norm (Ioffe and Szegedy, *Batch normalization*, ICML 2015).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Losses of rotations by what they do to points (Xiang et al., *PoseCNN*, RSS 2018, equations 5
 //! and 6).
 
-use super::Loss;
+use super::loss::Loss;
 use crate::{Error, Matrix};
 
 /// Which points are compared.

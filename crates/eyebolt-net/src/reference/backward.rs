@@ -1,8 +1,9 @@
 //! Gradients, by the chain rule over the graph in reverse.
 
+use super::case::Case;
 use super::forward::dropout;
 use super::ops::{for_each_pair, inverse_deviation, largest, moments};
-use super::{Case, Real};
+use super::real::Real;
 use crate::executor::Gradients;
 use crate::graph::{BatchNorm, Node, Op};
 use crate::{Error, Matrix};

@@ -1,7 +1,8 @@
 //! Values.
 
+use super::case::Case;
 use super::ops::{for_each_pair, inverse_deviation, largest, moments};
-use super::{Case, Real};
+use super::real::Real;
 use crate::executor::dropout_keeps;
 use crate::graph::{BatchNorm, Node, Op, ParameterId};
 use crate::{Error, Matrix};

@@ -3,7 +3,7 @@
 // Rows and registers of a tile are numbered; iterators over both hide which is which.
 #![allow(clippy::needless_range_loop)]
 
-use super::{MultiplyRows, MultiplyTransposed};
+use super::task::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{
     _MM_HINT_T0, _MM_HINT_T1, _mm_prefetch, _mm256_add_ps, _mm256_fmadd_ps, _mm256_loadu_ps,
     _mm256_set1_ps, _mm256_setzero_ps, _mm256_storeu_ps,
@@ -17,8 +17,8 @@ const STRIP: usize = VECTORS * LANES;
 const TILE: usize = 6;
 
 pub fn multiply_rows(task: &MultiplyRows<'_>, c: &mut [f32]) {
-    // SAFETY: `Isa::Avx2` is only made where the CPU has AVX2 and FMA; the indices were checked by
-    // `super::multiply_rows`.
+    // SAFETY: `Instructions::Avx2` comes out of an `Isa` only, which is made only where the CPU has
+    // AVX2 and FMA; the indices were checked by `super::multiply_rows`.
     unsafe { rows(task, c.as_mut_ptr()) }
 }
 

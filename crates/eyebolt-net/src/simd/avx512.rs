@@ -3,7 +3,7 @@
 // Rows and registers of a tile are numbered; iterators over both hide which is which.
 #![allow(clippy::needless_range_loop)]
 
-use super::{MultiplyRows, MultiplyTransposed};
+use super::task::{MultiplyRows, MultiplyTransposed};
 use std::arch::x86_64::{
     _MM_HINT_T0, _MM_HINT_T1, _mm_prefetch, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_set1_ps,
     _mm512_setzero_ps, _mm512_storeu_ps,
@@ -14,8 +14,8 @@ const LANES: usize = 16;
 const TILE: usize = 6;
 
 pub fn multiply_rows(task: &MultiplyRows<'_>, c: &mut [f32]) {
-    // SAFETY: `Isa::Avx512` is only made where the CPU has AVX-512F; the indices were checked by
-    // `super::multiply_rows`.
+    // SAFETY: `Instructions::Avx512` comes out of an `Isa` only, which is made only where the CPU has
+    // AVX-512F; the indices were checked by `super::multiply_rows`.
     unsafe {
         match task.width / LANES {
             1 => rows::<1>(task, c.as_mut_ptr()),

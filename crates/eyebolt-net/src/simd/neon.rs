@@ -3,7 +3,7 @@
 // Rows and registers of a tile are numbered; iterators over both hide which is which.
 #![allow(clippy::needless_range_loop)]
 
-use super::{MultiplyRows, MultiplyTransposed};
+use super::task::{MultiplyRows, MultiplyTransposed};
 use std::arch::aarch64::{float32x4_t, vaddq_f32, vdupq_n_f32, vfmaq_n_f32, vld1q_f32, vst1q_f32};
 
 const LANES: usize = 4;

@@ -1,6 +1,6 @@
 //! Plain loops: the fallback, and what the other instruction sets are tested against.
 
-use super::{MultiplyRows, MultiplyTransposed};
+use super::task::{MultiplyRows, MultiplyTransposed};
 
 pub fn multiply_rows(task: &MultiplyRows<'_>, c: &mut [f32]) {
     let (depth, width) = (task.depth, task.width);

@@ -1,6 +1,8 @@
 //! A trainer as bytes and back.
 
-use super::{Optimiser, Rule, Schedule, Trainer};
+use super::optimiser::{Optimiser, Rule};
+use super::schedule::Schedule;
+use super::trainer::Trainer;
 use crate::weights::{self, Entry, Tensors};
 use crate::{Error, Graph};
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,12 @@
 //! Whose names and orders a file has.
 
-use super::Tensors;
 use super::entry::{Entry, Form, Order};
+use super::tensors::Tensors;
 use crate::Error;
 use crate::graph::{ParameterSpec, Role};
+
+/// What errors call a file of ours.
+pub(super) const FILE: &str = "weights.safetensors";
 
 /// Whose names, shapes and orders the tensors of a file have; the head of [this module](super)
 /// says what they are.
@@ -36,7 +39,7 @@ impl Layout {
     /// What errors call the file.
     pub(super) fn file(self) -> &'static str {
         match self {
-            Self::Eyebolt => super::FILE,
+            Self::Eyebolt => FILE,
             Self::MinkowskiEngine => "MinkowskiEngine state dict",
         }
     }

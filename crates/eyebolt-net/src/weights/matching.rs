@@ -1,6 +1,6 @@
 //! The part of a file that fits a network.
 
-use super::Layout;
+use super::layout::Layout;
 use super::tensors::Found;
 use crate::{Error, Graph, Parameters};
 

@@ -1,10 +1,8 @@
 //! Building the tree: splits by the surface area heuristic, eight boxes to a node.
 
+use super::bounds::{Bounds, Corners};
 use super::bvh::{Bvh, Child, LANES, Leaf, Node};
-use super::split::{Bounds, Part, split};
-
-/// Corners of a triangle, units and axes of the scene.
-pub(super) type Corners = [[f32; 3]; 3];
+use super::split::{Part, split};
 
 /// The tree over `corners`, all of which are finite.
 pub(super) fn build(corners: &[Corners]) -> Bvh {

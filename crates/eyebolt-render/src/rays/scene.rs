@@ -1,6 +1,7 @@
 //! Meshes in one frame, ready for rays.
 
-use super::build::{Corners, build};
+use super::bounds::Corners;
+use super::build::build;
 use super::bvh::{Bvh, LANES};
 use super::eye::Eye;
 use eyebolt_geometry::{Base, Link, Transform};

@@ -1,7 +1,7 @@
 //! Disparities before anything is matched.
 
+use super::figures::Triangulation;
 use super::specimen::Specimen;
-use super::triangulation::Triangulation;
 use crate::view::View;
 use eyebolt_geometry::PinholeCamera;
 use nalgebra::{Point2, Vector3};

@@ -1,6 +1,8 @@
 //! The cameras, each a row of figures.
 
-use super::{AxialNoise, Family, LateralNoise, Mode, Sensor, TimeOfFlight, Triangulation, Window};
+use super::figures::{TimeOfFlight, Triangulation, Window};
+use super::laws::{AxialNoise, LateralNoise};
+use super::model::{Family, Mode, Sensor};
 
 impl Sensor {
     /// All models.

@@ -2,40 +2,12 @@
 
 use super::exposure::{Exposure, Readout};
 use super::field::Layers;
+use super::figures::TimeOfFlight;
 use super::multipath::multipath_m;
 use super::specimen::Specimen;
 use crate::view::View;
 use eyebolt_geometry::{PinholeCamera, RayTable};
 use rayon::prelude::*;
-
-/// The figures of a time-of-flight camera.
-///
-/// Signal is what comes back of the light that the camera sends out: it falls with the square of
-/// the distance and with the cosine of the angle of incidence, and random error grows as it falls
-/// (Lange and Seitz, *Solid-state time-of-flight range camera*, IEEE Journal of Quantum
-/// Electronics 37(3), 2001). It is measured here in that of a surface at 1 m that
-/// faces the camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimeOfFlight {
-    /// Standard deviation of depth from frame to frame at a signal of 1, metres.
-    pub random_m: f64,
-    /// Signal below which there is no depth.
-    pub least_signal: f64,
-    /// Standard deviation over specimens and places of the error that all frames share, at depth
-    /// 0, metres.
-    pub systematic_m: f64,
-    /// By how much that grows with depth, metres per metre.
-    pub systematic_growth: f64,
-    /// Standard deviation of the image of a point, pixels: what a pixel mixes of two surfaces at an
-    /// edge is a depth between them.
-    pub blur_px: f64,
-    /// Share of the signal of a pixel that must come from one surface.
-    pub least_share: f64,
-    /// Share of the light that surfaces send on to each other; 0 for no multipath.
-    pub reflectivity: f64,
-    /// Wavelength of the modulation of the light that depth is told by, metres.
-    pub wavelength_m: f64,
-}
 
 /// Depths within this belong to one surface as far as mixing goes, metres.
 const APART_M: f32 = 0.03;

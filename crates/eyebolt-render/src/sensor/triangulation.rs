@@ -2,59 +2,14 @@
 
 use super::exposure::{Exposure, Lateral, Readout};
 use super::field::{Field, Layers};
+use super::figures::Triangulation;
 use super::geometry::Geometry;
-use super::laws::{AxialNoise, LateralNoise, odds};
+use super::laws::{LateralNoise, odds};
 use super::specimen::Specimen;
 use super::window::{APART_PX, Disparities, Neighbour, matches, near_edges, nearest_in_front};
 use crate::view::View;
 use eyebolt_geometry::PinholeCamera;
 use rayon::prelude::*;
-
-/// The figures of a camera that finds a pattern, or the image of a second lens, in its own image.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Triangulation {
-    /// Where the second lens or the projector is along x of the camera's frame, metres. To the
-    /// right: its shadows lie to the left of things.
-    pub baseline_m: f64,
-    /// Whether what the second lens does not see, or the projector does not light, has no depth;
-    /// else the depth of what is seen is guessed rightly.
-    pub shadows: bool,
-    /// Whether the image of the second lens ends where the camera's does, so that a band along the
-    /// left edge has no depth.
-    pub overlap_only: bool,
-    /// Columns along the right edge that never have depth.
-    pub blind_columns: u32,
-    /// Disparity is told in multiples of this, pixels; 0 if it is continuous.
-    pub step_px: f64,
-    /// Error of depth.
-    pub axial: AxialNoise,
-    /// Lag at which the error of pixels is half correlated, pixels.
-    pub half_correlation_px: f64,
-    /// Share of the variance of all errors that is the same in every frame of a scene at rest.
-    pub fixed_share: f64,
-    /// Change of the disparity at which that part of the error is half correlated, pixels.
-    pub half_correlation_disparity_px: f64,
-    /// Error of where edges are.
-    pub lateral: LateralNoise,
-    /// What is compared.
-    pub window: Window,
-    /// How far things grow in the image over what lies behind them, pixels.
-    pub fattening_px: f64,
-    /// How wide a rim without depth lies around that, pixels.
-    pub rim_px: f64,
-    /// Angle between surface normal and ray, mean over the window, beyond which there is no depth,
-    /// radians.
-    pub largest_angle_rad: f64,
-}
-
-/// The window that is compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
-    /// It is `2 half_px + 1` pixels wide and high.
-    pub half_px: usize,
-    /// Share of the window that must have the disparity of its middle for a match.
-    pub least_share: f64,
-}
 
 /// By how much the share of a window that is needed varies, and the largest angle: a few of the
 /// pixels of a window, and what a hand's breadth of a curved surface turns.

@@ -1,6 +1,7 @@
 //! Which links are the base and the end-effector, where nobody says.
 
 use crate::error::RobotError;
+use crate::input::Input;
 use crate::robot::{Joint, JointKind, Robot};
 
 /// The first link with geometry on the way down from the root through fixed joints; the last link
@@ -27,7 +28,7 @@ pub(super) fn base(robot: &Robot, end_effector: Option<usize>) -> Result<usize, 
                     robot,
                     "more than one link may be the base",
                     &candidates,
-                    "--base",
+                    Input::BASE,
                 ));
             }
         }
@@ -89,18 +90,13 @@ fn many_arms(robot: &Robot, arms: &[&Joint]) -> RobotError {
         .map(|joint| end_effector(robot, joint.child).unwrap_or(joint.child))
         .collect();
     let what = "more than one arm, so more than one link may be the end-effector";
-    ambiguous(robot, what, &candidates, "--end-effector")
+    ambiguous(robot, what, &candidates, Input::END_EFFECTOR)
 }
 
-fn ambiguous(
-    robot: &Robot,
-    what: &'static str,
-    candidates: &[usize],
-    flag: &'static str,
-) -> RobotError {
+fn ambiguous(robot: &Robot, what: &'static str, candidates: &[usize], input: Input) -> RobotError {
     let name = |link: &usize| Some(robot.links.get(*link)?.name.clone());
     let candidates = candidates.iter().filter_map(name).collect();
-    RobotError::Ambiguous { file: robot.source.clone(), what, candidates, flag }
+    RobotError::Ambiguous { file: robot.source.clone(), what, candidates, input }
 }
 
 /// 1 for a joint that a motor turns, else 0.

@@ -1,6 +1,6 @@
 //! Forward kinematics: joint positions into poses of links.
 
-use super::Arm;
+use super::chain::Arm;
 use crate::error::KinematicsError;
 use crate::joint_positions::JointPositions;
 use crate::robot::{Joint, JointKind, Robot};

@@ -4,8 +4,9 @@
 //! drawn once) and draws geometries that the scene does not show.
 
 use super::dae_geometry::{Geometry, read_geometry};
-use super::{Fault, RawMesh, check_count};
-use crate::xml;
+use super::error::{Fault, check_count};
+use super::raw::RawMesh;
+use crate::xml::{self, child};
 use nalgebra::{Matrix3, Matrix4, Point3, Unit, Vector3};
 use roxmltree::Node;
 use std::collections::HashMap;
@@ -38,11 +39,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Fault> {
     let shown = scene.visual_scene(root)?;
     scene.show(shown, Matrix4::new_scaling(unit))?;
     Ok(scene.mesh)
-}
-
-/// First child called `name`.
-pub(super) fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
-    node.children().find(|child| child.tag_name().name() == name)
 }
 
 /// Metres per unit of the document; 1 where it does not say.

@@ -1,7 +1,7 @@
 //! One `<geometry>` of a COLLADA document: positions and triangles, nothing else.
 
-use super::dae::child;
-use super::{Fault, check_count};
+use super::error::{Fault, check_count};
+use crate::xml::child;
 use nalgebra::Point3;
 use roxmltree::Node;
 use std::collections::HashMap;

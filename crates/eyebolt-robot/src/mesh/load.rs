@@ -1,8 +1,9 @@
 //! Bodies into meshes.
 
-use super::{
-    Fault, MeshError, RawMesh, TriangleMesh, check_count, dae, obj, primitives, stl, weld,
-};
+use super::error::{Fault, MeshError, check_count};
+use super::raw::RawMesh;
+use super::triangles::TriangleMesh;
+use super::{dae, obj, primitives, stl, weld};
 use crate::robot::{Body, Link, Shape};
 use nalgebra::Point3;
 use std::fs::File;

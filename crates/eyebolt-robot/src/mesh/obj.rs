@@ -1,6 +1,7 @@
 //! Wavefront OBJ: positions and faces; normals, texture and materials don't matter here.
 
-use super::{Fault, RawMesh, check_count};
+use super::error::{Fault, check_count};
+use super::raw::RawMesh;
 use nalgebra::Point3;
 
 /// Positions and faces of all groups. Faces of more than three corners are cut into fans, which is

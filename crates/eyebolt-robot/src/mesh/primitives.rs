@@ -1,6 +1,7 @@
 //! Boxes, cylinders, capsules and spheres as triangles.
 
-use super::{Fault, RawMesh, check_count};
+use super::error::{Fault, check_count};
+use super::raw::RawMesh;
 use crate::robot::Shape;
 use nalgebra::Point3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

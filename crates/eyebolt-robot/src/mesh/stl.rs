@@ -1,6 +1,7 @@
 //! STL, binary and text: three corners per triangle, nothing shared, no unit (metres in URDF).
 
-use super::{Fault, RawMesh, check_count};
+use super::error::{Fault, check_count};
+use super::raw::RawMesh;
 use nalgebra::Point3;
 
 const HEADER: usize = 80;

@@ -1,6 +1,8 @@
 //! From what a file says to a mesh whose neighbouring triangles share vertices.
 
-use super::{Fault, RawMesh, TriangleMesh, check_count};
+use super::error::{Fault, check_count};
+use super::raw::RawMesh;
+use super::triangles::TriangleMesh;
 use nalgebra::Point3;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

@@ -1,9 +1,32 @@
 //! Residual blocks (He et al., *Deep residual learning for image recognition*, CVPR 2016).
 
-use super::Block;
 use crate::Error;
 use crate::coordinates::{Kernel, KernelSpec};
 use crate::graph::{GraphBuilder, NodeId};
+use serde::{Deserialize, Serialize};
+
+/// Slope of negative values in heads.
+pub(super) const HEAD_SLOPE: f32 = 0.01;
+
+/// What a stage is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Block {
+    /// Two convolutions.
+    #[doc(alias = "BasicBlock")]
+    Basic,
+    /// One of three voxels between two of one; four times as many channels leave it.
+    Bottleneck,
+}
+
+impl Block {
+    fn expansion(self) -> usize {
+        match self {
+            Self::Basic => 1,
+            Self::Bottleneck => 4,
+        }
+    }
+}
 
 /// A convolution, a batch norm, ReLU.
 pub fn convolution_norm_relu(

@@ -1,6 +1,7 @@
 //! The way down of a MinkUNet, and networks that end there.
 
-use super::{Block, HEAD_SLOPE, checks, convolution_norm_relu, published, stage};
+use super::blocks::{Block, HEAD_SLOPE, convolution_norm_relu, stage};
+use super::checks;
 use crate::Error;
 use crate::coordinates::{Kernel, KernelSpec};
 use crate::graph::{Domain, Graph, GraphBuilder, NodeId, Source};
@@ -41,15 +42,6 @@ pub struct MinkEncoder {
 }
 
 impl MinkEncoder {
-    /// Of a network by its published name, `minkunet14`, `18`, `34`, `50` or `101`; a letter behind
-    /// it changes nothing, as those of one number have the same encoder.
-    ///
-    /// # Errors
-    /// If there is no such network.
-    pub fn named(name: &str, inputs: usize, widths: &[usize]) -> Result<Self, Error> {
-        published::encoder(name, inputs, widths)
-    }
-
     /// The network: for each item as many numbers as the last of `widths`. Linear layers are called
     /// `regression.0`, `regression.1`, ..., the encoder's as in MinkowskiEngine.
     ///

@@ -1,6 +1,6 @@
 //! What a description of a network may ask for. It may come from a file of anybody's.
 
-use super::{Abstraction, PointNet2, Task};
+use super::description::{Abstraction, PointNet2, Task};
 use crate::Error;
 
 /// More samples or channels are a mistake, or malice.

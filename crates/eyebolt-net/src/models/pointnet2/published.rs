@@ -1,6 +1,6 @@
 //! Networks of publications.
 
-use super::{Abstraction, PointNet2, Scale, Task};
+use super::description::{Abstraction, PointNet2, Scale, Task};
 
 impl PointNet2 {
     /// Segmentation, single-scale: 1024, 256, 64, 16 samples within 0.1, 0.2, 0.4, 0.8, 32

@@ -1,30 +1,7 @@
-//! Triangle meshes of links, in metres in the link's frame.
+//! What can be wrong with a mesh.
 
-mod dae;
-mod dae_geometry;
-mod load;
-mod obj;
-mod primitives;
-mod stl;
-mod weld;
-
-pub(crate) use load::{Format, read_mesh_file};
-pub use load::{MAX_MESH_BYTES, Prefer, link_mesh, load_body};
-
-use nalgebra::Point3;
+use super::triangles::MAX_TRIANGLES;
 use std::path::PathBuf;
-
-/// Most triangles of one body.
-pub const MAX_TRIANGLES: usize = 5_000_000;
-
-/// A surface of triangles. Vertices are finite and shared by neighbours; every triangle has area.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TriangleMesh {
-    /// Vertices, metres, in the link's frame.
-    pub vertices: Vec<Point3<f32>>,
-    /// Indices of the corners, counter-clockwise as seen from outside.
-    pub triangles: Vec<[u32; 3]>,
-}
 
 /// A body without a usable mesh.
 #[derive(Debug, thiserror::Error)]
@@ -38,7 +15,7 @@ pub enum MeshError {
         /// Why.
         source: std::io::Error,
     },
-    /// The file is longer than [`MAX_MESH_BYTES`].
+    /// The file is longer than [`crate::MAX_MESH_BYTES`].
     #[error(
         "{}: {bytes} bytes, but a mesh file may have {limit}; \
          decimate the mesh or use the collision mesh",
@@ -73,7 +50,7 @@ pub enum MeshError {
         /// What is wrong.
         problem: String,
     },
-    /// More than [`MAX_TRIANGLES`].
+    /// More than [`crate::MAX_TRIANGLES`].
     #[error("{name}: more than {limit} triangles; decimate the mesh or use the collision mesh")]
     TooManyTriangles {
         /// The mesh file, or the shape.
@@ -87,13 +64,6 @@ pub enum MeshError {
         /// The mesh file, or the shape.
         name: String,
     },
-}
-
-/// What a reader returns: coordinates as in the file, indices not yet checked.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct RawMesh {
-    pub(crate) positions: Vec<Point3<f32>>,
-    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 /// What is wrong inside a mesh file; the caller knows which file.
@@ -119,28 +89,4 @@ impl Fault {
 /// Refuses `triangles` above [`MAX_TRIANGLES`].
 pub(crate) fn check_count(triangles: usize) -> Result<(), Fault> {
     if triangles > MAX_TRIANGLES { Err(Fault::TooManyTriangles) } else { Ok(()) }
-}
-
-impl TriangleMesh {
-    /// Adds `other`, whose vertices are in the same frame.
-    ///
-    /// `None`, and nothing added, if the vertices no longer fit 32-bit indices.
-    pub fn append(&mut self, other: &Self) -> Option<()> {
-        let first = u32::try_from(self.vertices.len()).ok()?;
-        let last = u32::try_from(other.vertices.len()).ok()?;
-        first.checked_add(last)?;
-        self.vertices.extend_from_slice(&other.vertices);
-        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|i| first + i)));
-        Some(())
-    }
-
-    /// Least and greatest coordinates, metres; `None` without vertices.
-    pub fn bounds(&self) -> Option<(Point3<f32>, Point3<f32>)> {
-        let first = *self.vertices.first()?;
-        Some(
-            self.vertices
-                .iter()
-                .fold((first, first), |(low, high), vertex| (low.inf(vertex), high.sup(vertex))),
-        )
-    }
 }

@@ -1,8 +1,10 @@
 //! Operations that lead from rows of one kind to rows of another, by the names of the field.
 
-use super::GraphBuilder;
+use super::builder::GraphBuilder;
+use super::domain::{Domain, MapSpec, Source};
+use super::ids::NodeId;
+use super::op::Op;
 use crate::Error;
-use crate::graph::{Domain, MapSpec, NodeId, Op, Source};
 
 impl GraphBuilder {
     /// Mean of all rows of each item.

@@ -1,11 +1,8 @@
-//! The part of a robot between a base link and an end-effector link.
+//! The chain of joints from a base link to an end-effector link.
 
-mod guess;
-mod kinematics;
-
-pub use kinematics::{LinkPoses, PosesWithDefaults};
-
+use super::guess;
 use crate::error::RobotError;
+use crate::input::Input;
 use crate::joint_positions::JointPositions;
 use crate::robot::{Joint, JointKind, Robot};
 use std::collections::BTreeSet;
@@ -13,15 +10,15 @@ use std::collections::BTreeSet;
 /// A robot with a base link and an end-effector link: the frames of a calibration.
 #[derive(Clone, Debug)]
 pub struct Arm {
-    robot: Robot,
-    base: usize,
-    end_effector: usize,
+    pub(super) robot: Robot,
+    pub(super) base: usize,
+    pub(super) end_effector: usize,
     /// Per link: whether it is the base or hangs below it.
-    below_base: Vec<bool>,
+    pub(super) below_base: Vec<bool>,
     /// Per link: whether it is the end-effector or hangs below it.
-    below_end_effector: Vec<bool>,
+    pub(super) below_end_effector: Vec<bool>,
     /// Joints from the base down to the end-effector, fixed ones included.
-    chain: Vec<usize>,
+    pub(super) chain: Vec<usize>,
 }
 
 /// A joint position that its limits do not allow: wrong units, or another joint's value.
@@ -39,24 +36,40 @@ pub struct OutsideLimits {
     pub upper: f64,
 }
 
+impl Robot {
+    /// The arm between two links; `None` lets it be guessed.
+    ///
+    /// The guessed base is the first link with geometry on the way down from the root through fixed
+    /// joints. The guessed end-effector is the first link with geometry after the last joint of the
+    /// longest chain, or, where a gripper's joints follow, the link that carries them.
+    ///
+    /// # Errors
+    /// A link that does not exist, an end-effector that is not below the base through at least one
+    /// moving joint, or a guess with more than one answer: the error lists the candidates.
+    pub fn arm(&self, base: Option<&str>, end_effector: Option<&str>) -> Result<Arm, RobotError> {
+        Arm::new(self.clone(), base, end_effector)
+    }
+}
+
 impl Arm {
-    pub(crate) fn new(
+    fn new(
         robot: Robot,
         base: Option<&str>,
         end_effector: Option<&str>,
     ) -> Result<Self, RobotError> {
-        let named = |name: Option<&str>, flag| {
+        let named = |name: Option<&str>, input| {
             name.map(|name| {
                 robot.link_index(name).ok_or_else(|| RobotError::UnknownLink {
                     file: robot.source.clone(),
                     name: name.to_owned(),
-                    flag,
+                    input,
                     known: robot.link_names(),
                 })
             })
             .transpose()
         };
-        let (base, end_effector) = (named(base, "--base")?, named(end_effector, "--end-effector")?);
+        let (base, end_effector) =
+            (named(base, Input::BASE)?, named(end_effector, Input::END_EFFECTOR)?);
         let base = base.map_or_else(|| guess::base(&robot, end_effector), Ok)?;
         let end_effector = end_effector.map_or_else(|| guess::end_effector(&robot, base), Ok)?;
         Self::between(robot, base, end_effector)
@@ -154,7 +167,7 @@ impl Arm {
         self.robot.joints.iter().filter_map(outside).collect()
     }
 
-    fn moving_joints_below_base(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn moving_joints_below_base(&self) -> impl Iterator<Item = usize> {
         self.robot.joints.iter().enumerate().filter_map(|(index, joint)| {
             let below = self.below_base.get(joint.parent).copied().unwrap_or(false);
             (below && joint.moves()).then_some(index)
@@ -162,7 +175,7 @@ impl Arm {
     }
 
     /// Names of the joints that decide the positions of `joints`, each once.
-    fn sources(&self, joints: impl Iterator<Item = usize>) -> Vec<&str> {
+    pub(super) fn sources(&self, joints: impl Iterator<Item = usize>) -> Vec<&str> {
         let mut names = Vec::new();
         for joint in joints {
             let Some(source) = self.robot.source_joint(joint).filter(|joint| joint.moves()) else {
@@ -173,40 +186,5 @@ impl Arm {
             }
         }
         names
-    }
-}
-
-impl Robot {
-    /// Joints from link `top` down to link `bottom`; `None` if `bottom` is not below `top`.
-    fn chain(&self, top: usize, bottom: usize) -> Option<Vec<usize>> {
-        let mut chain = Vec::new();
-        let mut link = bottom;
-        while link != top {
-            let (parent, joint) = self.links.get(link)?.parent?;
-            chain.push(joint);
-            link = parent;
-        }
-        chain.reverse();
-        Some(chain)
-    }
-
-    /// Per link: whether it is `top` or hangs below it.
-    fn at_or_below(&self, top: usize) -> Vec<bool> {
-        let mut below: Vec<bool> = Vec::with_capacity(self.links.len());
-        for (index, link) in self.links.iter().enumerate() {
-            // Parents come first, so theirs is known.
-            let parent = link.parent.and_then(|(parent, _)| below.get(parent).copied());
-            below.push(index == top || parent.unwrap_or(false));
-        }
-        below
-    }
-
-    /// The joint at the end of the chain of mimics that starts at `joint`.
-    fn source_joint(&self, joint: usize) -> Option<&Joint> {
-        let mut joint = self.joints.get(joint)?;
-        while let Some(mimic) = joint.mimic {
-            joint = self.joints.get(mimic.joint)?;
-        }
-        Some(joint)
     }
 }
