@@ -5,7 +5,6 @@ use crate::{BagOptions, depth_from_millimetres};
 use eyebolt_geometry::Distortion;
 use nalgebra::Point3;
 use std::fs::File;
-use std::ops::ControlFlow;
 
 fn camera() -> PinholeCamera {
     PinholeCamera::new(4, 3, 5.0, 5.0, 1.5, 1.0, Distortion::None).unwrap()
@@ -91,7 +90,7 @@ fn written_to_a_folder_or_a_bag_it_is_the_same() {
     let frames = three();
     let (folder, robot) = (tempfile::tempdir().unwrap(), WriteRobot::default());
     let recording = Recording::Other(Box::new(frames.clone()));
-    let go_on = &mut |_, _| ControlFlow::Continue(());
+    let go_on = &();
     write_folder(&recording, &robot, folder.path(), go_on).unwrap();
     let read = Recording::open(folder.path(), &BagOptions::default()).unwrap();
     // Files are listed by number, then by name.

@@ -61,3 +61,16 @@ impl fmt::Display for DropReason {
         }
     }
 }
+
+impl DropReason {
+    /// The reason in a word, as it stands in JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Moving { .. } => "moving",
+            Self::StaleJoints { .. } => "no_joint_state_near",
+            Self::StampBackward => "stamp_backward",
+            Self::Empty => "empty",
+            Self::Unreadable(_) => "unreadable",
+        }
+    }
+}

@@ -72,6 +72,7 @@ fn refinement(camera_from_base: Transform<Camera, Base>) -> Refinement {
         deviations: [0.001, 1.0],
         views: Vec::new(),
         left_out: Vec::new(),
+        groups_left_out: Vec::new(),
         iterations: 1,
         last_step: Vector6::zeros(),
         stop: StopReason::Converged,
