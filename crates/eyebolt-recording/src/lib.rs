@@ -87,6 +87,6 @@ pub use provenance::{ClockOffset, DropReason, DroppedFrame, Provenance, TopicSum
 pub use recording::Recording;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use write::{
-    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot,
-    write_folder, write_mcap, write_static_transforms,
+    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot, write_folder, write_mcap,
+    write_static_transforms,
 };

@@ -1,7 +1,7 @@
 //! Laws of the overlay picture, on a box that a made-up camera sees.
 
 use eyebolt::observations::{Background, Configuration, ImageSource, Observations};
-use eyebolt::report::overlay;
+use eyebolt::report::{Drawn, overlay};
 use eyebolt_geometry::{
     Base, Camera, DepthImage, Distortion, Mask, PinholeCamera, RayTable, Transform,
 };
@@ -77,7 +77,9 @@ fn seen_farther(by_m: f32) -> Observations {
 
 fn picture(observations: &Observations, color: Option<&ColorImage>) -> eyebolt::report::Picture {
     let mut raster = Raster::new(&observations.camera);
-    overlay(observations, &observations.configurations[0], &mut raster, &camera_from_base(), color)
+    let configuration = &observations.configurations[0];
+    let drawn = Drawn { configuration, posture: &configuration.posture, color };
+    overlay(observations, &drawn, &mut raster, &camera_from_base())
 }
 
 /// Colours of the cube well inside its outline.

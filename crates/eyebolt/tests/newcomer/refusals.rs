@@ -3,7 +3,8 @@
 use crate::recording::write_depth;
 use crate::run::{MASKED, Ran, UNMASKED, WITH_MASKS, WITHOUT_MASKS, folder, run, run_depth, truth};
 use crate::scene::{JOINT_NAMES, JOINTS, Shot, shot, shots};
-use eyebolt::calibrate::{Dropped, Reason, Verdict};
+use eyebolt::calibrate::{Reason, Verdict};
+use eyebolt::refine::Dropped;
 use std::fs;
 
 fn reasons(ran: &Ran) -> &[Reason] {

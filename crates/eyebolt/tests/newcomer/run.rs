@@ -3,8 +3,8 @@
 use crate::recording;
 use crate::scene::{CAMERA_FROM_BASE, Shot};
 use eyebolt::answer::Answer;
-use eyebolt::calibrate::{Limits, Verdict};
-use eyebolt::pipeline::{self, Outcome, Request};
+use eyebolt::calibrate::Verdict;
+use eyebolt::pipeline::{self, Failure, Outcome, Request};
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{BagOptions, Recording};
@@ -56,14 +56,15 @@ pub fn try_run(folder: &Path, options: Options) -> Result<Ran, RecordError> {
     let robot = Robot::from_urdf_file(urdf, &PackageRoots::new()).unwrap();
     let arm = robot.arm(section.base.as_deref(), section.end_effector.as_deref()).unwrap();
     let request = Request {
-        recording: &recording,
-        arm: &arm,
-        cache: &CACHE,
+        cache: CACHE.clone(),
         options: RecordOptions { use_masks: options.use_masks, ..RecordOptions::default() },
-        limits: Limits::default(),
         seed: options.seed,
+        ..Request::new(recording.source(), &arm)
     };
-    let outcome = pipeline::run(&request, &())?;
+    let outcome = match pipeline::run(&request, &()) {
+        Err(Failure::Record(error)) => return Err(error),
+        other => other.unwrap(),
+    };
     let answer = Answer::new(&request, &outcome);
     Ok(Ran { outcome, answer })
 }

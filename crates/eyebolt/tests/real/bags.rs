@@ -14,7 +14,7 @@ use std::path::Path;
 fn answer(variant: &Variant, shared: &Path, path: &Path) -> Transform<Camera, Base> {
     let recording = Recording::open(path, &BagOptions::default()).unwrap();
     let opened = variant.open(shared);
-    let request = Request { recording: &recording, ..opened.request() };
+    let request = Request { source: recording.source(), ..opened.request() };
     trusted(&run(&request, &()).unwrap())
 }
 
@@ -51,7 +51,7 @@ fn what_was_converted_gives_the_same_answer() {
         let recording = Recording::open(path, &BagOptions::default()).unwrap();
         assert_eq!(recording.frame_names(), opened.recording.frame_names());
         let options = RecordOptions::default();
-        let request = Request { recording: &recording, options, ..opened.request() };
+        let request = Request { source: recording.source(), options, ..opened.request() };
         assert_eq!(trusted(&run(&request, &()).unwrap()), whole, "{}", path.display());
     }
 }

@@ -36,8 +36,8 @@ pub fn silhouette_iou(outcome: &Outcome, masks: &[Mask], pose: &Transform<Camera
     let observations = outcome.observations.as_ref().unwrap();
     let mut raster = Raster::new(&observations.camera);
     let (mut overlap, mut union) = (0, 0);
-    for (configuration, mask) in observations.configurations.iter().zip(masks) {
-        raster.draw(&observations.camera, &configuration.posture.meshes(&observations.arm, pose));
+    for (posture, mask) in outcome.postures().iter().zip(masks) {
+        raster.draw(&observations.camera, &posture.meshes(&observations.arm, pose));
         let both = raster.pixels().filter(|at| mask.as_slice()[*at]).count();
         overlap += both;
         union += raster.pixels().count() + mask.count() - both;
@@ -51,14 +51,15 @@ pub fn surface_distance(outcome: &Outcome, masks: &[Mask], pose: &Transform<Came
     let observations = outcome.observations.as_ref().unwrap();
     let base_from_camera = pose.inverse();
     let mut distances = Vec::new();
-    for (configuration, mask) in observations.configurations.iter().zip(masks) {
+    let seen = observations.configurations.iter().zip(outcome.postures());
+    for ((configuration, posture), mask) in seen.zip(masks) {
         let eroded = mask.eroded(3);
         let depth = configuration.depth.depth_m();
         let pixels = eroded.as_slice().iter().enumerate().filter(|(_, set)| **set);
         for (at, _) in pixels.filter(|(at, _)| depth[*at] > 0.0 && depth[*at] < 2.0) {
             let point = observations.rays.point(at, depth[at]);
             let point = base_from_camera.point(&point.cast()).cast();
-            let nearest = configuration.posture.nearest(&observations.arm, &point).unwrap();
+            let nearest = posture.nearest(&observations.arm, &point).unwrap();
             distances.push(1e3 * f64::from(nearest.distance_m).abs());
         }
     }

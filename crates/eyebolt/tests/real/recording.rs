@@ -1,6 +1,6 @@
 //! The recording, with whatever a test changes about it.
 
-use eyebolt::calibrate::{Limits, Verdict};
+use eyebolt::calibrate::Verdict;
 use eyebolt::pipeline::{Outcome, Request, run};
 use eyebolt::record::RecordOptions;
 use eyebolt_geometry::{Base, Camera, Transform};
@@ -114,12 +114,10 @@ impl Opened {
     /// What the run is asked to do.
     pub fn request(&self) -> Request<'_> {
         Request {
-            recording: &self.recording,
-            arm: &self.arm,
-            cache: &self.cache,
+            cache: self.cache.clone(),
             options: RecordOptions { use_masks: self.masks, ..RecordOptions::default() },
-            limits: Limits::default(),
             seed: self.seed,
+            ..Request::new(self.recording.source(), &self.arm)
         }
     }
 

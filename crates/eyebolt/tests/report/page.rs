@@ -144,7 +144,7 @@ fn names_from_outside_are_text() {
     answer.robot = EVIL.to_owned();
     answer.assumed_joints = vec![EVIL.to_owned()];
     let pictures: Vec<_> = overlays(&outcome, |_| None).collect();
-    let context = Context { recording: EVIL, pictures: &pictures, truth: None };
+    let context = Context { recording: EVIL, pictures: &pictures, ..Context::default() };
     let page = html(&answer, &outcome, &context);
     // Only what is ours opens a tag.
     assert!(!page.contains(EVIL) && !page.contains("<img src=x") && !page.contains("<!--"));

@@ -4,8 +4,8 @@ use crate::run::{Ran, WITHOUT_MASKS, run_depth};
 use crate::scene::shots;
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Calibration, Reason, Verdict};
+use eyebolt::joint_limits::OutsideLimits;
 use eyebolt::pipeline::Outcome;
-use eyebolt::record::OutsideLimits;
 use eyebolt::report::{Context, TruthComparison, html, overlays};
 use eyebolt_robot::JointKind;
 use std::sync::LazyLock;
@@ -25,7 +25,16 @@ pub static PAGE: LazyLock<String> = LazyLock::new(|| page(&GOOD.answer, &GOOD.ou
 pub fn page(answer: &Answer, outcome: &Outcome) -> String {
     let pictures: Vec<_> = overlays(outcome, |_| None).collect();
     let truth = Some(TruthComparison { translation_mm: 0.123, rotation_deg: 0.0456 });
-    html(answer, outcome, &Context { recording: "bags/monday.mcap", pictures: &pictures, truth })
+    html(
+        answer,
+        outcome,
+        &Context {
+            recording: "bags/monday.mcap",
+            pictures: &pictures,
+            truth,
+            ..Context::default()
+        },
+    )
 }
 
 /// `ran` as it would be if it had been refused for `reasons`.

@@ -46,7 +46,7 @@ fn each_point_lies_where_its_pixel_saw_it() {
             let (u, v) = (pixel.x.round(), pixel.y.round());
             assert!((pixel.x - u).abs() < 0.1 && (pixel.y - v).abs() < 0.1, "{pixel}");
             let seen_m = f64::from(configuration.depth.at(u as u32, v as u32));
-            let scaled_m = seen_m * (1.0 + refinement.depth_scale);
+            let scaled_m = seen_m * (1.0 + refinement.depth_scale());
             assert!((point.z - scaled_m).abs() < 3e-4, "{} {scaled_m}", point.z);
         }
     }

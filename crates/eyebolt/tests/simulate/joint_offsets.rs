@@ -5,7 +5,7 @@ use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Reason, Verdict};
 use eyebolt::evaluate::Evaluation;
 use eyebolt::pipeline;
-use eyebolt::record::{self, RecordOptions};
+use eyebolt::record::{RecordOptions, observe};
 use eyebolt::simulate::{Faults, Scenario};
 use eyebolt_geometry::{Base, Transform};
 use eyebolt_registration::{JointOffsets, MOST_JOINTS};
@@ -75,21 +75,21 @@ fn from_the_left_joints_that_are_off_are_found() {
     assert_honest("paper-test-p3", 3, 0.5, 0.2);
 }
 
-/// The joints of a session move its links as the joints of the robot do.
+/// The joints of a observations move its links as the joints of the robot do.
 #[test]
 fn moved_joints_put_the_links_where_the_robot_has_them() {
     let recorded = Recorded::of(small());
-    let mut session =
-        record::open(&recorded.recording, &ARM, &CACHE, &RecordOptions::default()).unwrap();
-    let names: Vec<_> = session.arm.joints().iter().map(|joint| joint.name.clone()).collect();
+    let observations =
+        observe(recorded.recording.source(), &ARM, &CACHE, &RecordOptions::default()).unwrap();
+    let names: Vec<_> = observations.arm.joints().iter().map(|joint| joint.name.clone()).collect();
     assert_eq!(names, ARM.required_joints());
     let mut offsets = JointOffsets { rad: [0.0; MOST_JOINTS] };
     for (joint, rad) in offsets.rad.iter_mut().enumerate().take(names.len()) {
         *rad = 0.05 * (joint as f64 - 2.5);
     }
-    session.move_joints(&offsets);
     let frame = recorded.recording.frame_names();
-    for configuration in &session.configurations {
+    for configuration in &observations.configurations {
+        let posture = configuration.posture.moved(&observations.arm, &offsets);
         let at = frame.iter().position(|name| *name == configuration.frames[0]).unwrap();
         let told = recorded.recording.read_joints(at).unwrap();
         let farther: JointPositions = told
@@ -100,7 +100,7 @@ fn moved_joints_put_the_links_where_the_robot_has_them() {
             })
             .collect();
         let poses = ARM.link_poses(&farther).unwrap();
-        let links = session.arm.links().iter().zip(configuration.posture.base_from_link());
+        let links = observations.arm.links().iter().zip(posture.base_from_link());
         for (link, pose) in links {
             let index = ARM.robot().link_index(&link.name).unwrap();
             // As forward kinematics has it, from a base that is turned by the first joint's offset.

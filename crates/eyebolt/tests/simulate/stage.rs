@@ -1,8 +1,6 @@
 //! Simulations for tests.
 
-use eyebolt::calibrate::Limits;
 use eyebolt::pipeline::Request;
-use eyebolt::record::RecordOptions;
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Plan, Preset, Scenario, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, DepthImage, Frame, Transform};
@@ -93,14 +91,7 @@ impl Recorded {
 
     /// How it is calibrated, as a user would.
     pub fn request(&self) -> Request<'_> {
-        Request {
-            recording: &self.recording,
-            arm: &ARM,
-            cache: &CACHE,
-            options: RecordOptions::default(),
-            limits: Limits::default(),
-            seed: 1,
-        }
+        Request { cache: CACHE.clone(), ..Request::new(self.recording.source(), &ARM) }
     }
 
     pub fn count(&self) -> usize {
