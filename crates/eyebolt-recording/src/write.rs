@@ -51,6 +51,6 @@ pub fn write_mcap(
     if let Some(json) = truth {
         writer.metadata(truth::RECORD, &truth::record(&json))?;
     }
-    copy::bag(bag, robot, &mut writer, progress)?;
+    copy::bag(bag.copy_source(), robot, &mut writer, progress)?;
     writer.finish()
 }

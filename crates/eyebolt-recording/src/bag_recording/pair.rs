@@ -1,12 +1,17 @@
 //! Which frames were taken while the arm stood still, and where its joints were.
 
 mod joints;
+mod limit;
 
-use super::scan::{FrameEntry, Unfit};
+use super::scan::{FrameEntry, TopicScan, Unfit};
 use super::stamps::TRANSPORT_S;
 use super::track::Track;
+use crate::error::RecordingError;
 use crate::provenance::{ClockOffset, DropReason, DroppedFrame};
+use eyebolt_robot::Input;
 use joints::{Joints, State};
+use limit::limit_of;
+use std::path::Path;
 
 impl From<&Unfit> for DropReason {
     fn from(unfit: &Unfit) -> Self {
@@ -44,13 +49,6 @@ const SHORTEST_NS: i64 = 20_000_000;
 const LONGEST_NS: i64 = 100_000_000;
 /// Frames are not told from motion farther than this, however little the clocks agree.
 const LARGEST_DOUBT_S: f64 = 1.0;
-
-/// The limit of motion, radians or metres, lies between half a millimetre and five at the end of an
-/// arm: as far as encoders at rest make of it, and as much as still calibrates to millimetres.
-const SMALLEST_LIMIT: f64 = 5e-4;
-const LARGEST_LIMIT: f64 = 5e-3;
-/// Above what the stillest quarter of the frames has by so many times, an arm moves.
-const ABOVE_STILL: f64 = 5.0;
 
 /// Brings `frames` and `tracks` together.
 ///
@@ -109,6 +107,35 @@ pub(super) fn pair(
     paired
 }
 
+/// As [`pair`], of the frames of the topic `depth`; errors if none takes part. `path` is for
+/// messages.
+pub(super) fn pair_topics(
+    path: &Path,
+    depth: &TopicScan,
+    tracks: &[&Track],
+    offset: Option<ClockOffset>,
+    max_motion: Option<f64>,
+) -> Result<Paired, RecordingError> {
+    let frames = depth.frames();
+    let paired = pair(frames, tracks, offset, max_motion);
+    tracing::debug!(limit = paired.motion_limit, given = max_motion.is_some(), "motion limit");
+    for frame in &paired.dropped {
+        tracing::debug!(frame = frame.index, stamp_s = frame.stamp_s, reason = %frame.reason, "frame dropped");
+    }
+    if !paired.kept.is_empty() {
+        return Ok(paired);
+    }
+    let first = paired.dropped.first().map(|frame| format!("; of the first, {}", frame.reason));
+    let (count, first) = (frames.len(), first.unwrap_or_default());
+    let problem = format!("none of its {count} frames can be used{first}");
+    let remedy = format!(
+        "Let the arm rest in every configuration while the camera looks on, and record joint \
+         states all the time; {} changes what counts as rest",
+        Input::MAX_MOTION
+    );
+    Err(RecordingError::invalid(path, &depth.name, problem, remedy))
+}
+
 fn nanoseconds(seconds: f64) -> i64 {
     // Saturates.
     (seconds * 1e9).round() as i64
@@ -126,16 +153,6 @@ fn half_exposure(frames: &[FrameEntry]) -> i64 {
     let middle = steps.len() / 2;
     let median = if steps.is_empty() { LONGEST_NS } else { *steps.select_nth_unstable(middle).1 };
     (median / 2).clamp(SHORTEST_NS, LONGEST_NS)
-}
-
-/// The motion above which a frame is of a moving arm.
-fn limit_of(mut motions: Vec<f64>) -> f64 {
-    let quarter = motions.len() / 4;
-    if motions.is_empty() {
-        return SMALLEST_LIMIT;
-    }
-    let still = *motions.select_nth_unstable_by(quarter, f64::total_cmp).1;
-    (ABOVE_STILL * still).clamp(SMALLEST_LIMIT, LARGEST_LIMIT)
 }
 
 #[cfg(test)]

@@ -1,25 +1,14 @@
 //! The topics of a bag, for people, and what else a bag tells without being a recording.
 
-use super::scan::{Content, Scan, TopicScan};
+use super::choose::Chosen;
+use super::options::BagOptions;
+use super::scan::{Scan, TopicScan};
 use super::track::Track;
-use super::{BagOptions, BagRecording};
 use crate::bag::Bag;
 use crate::error::RecordingError;
 use crate::message::StaticTransform;
 use crate::provenance::TopicSummary;
 use std::path::Path;
-
-impl BagRecording {
-    pub(super) fn summary(&self, number: usize) -> Option<TopicSummary> {
-        let topic = self.scan.topics.get(number)?;
-        Some(summary(topic, self.role(number)))
-    }
-
-    /// What a topic is to the recording.
-    fn role(&self, number: usize) -> Option<&'static str> {
-        self.chosen.roles().find(|(chosen, _)| *chosen == number).map(|(_, role)| role)
-    }
-}
 
 /// The topics of the bag at `path`, whether or not they make a recording.
 ///
@@ -29,7 +18,7 @@ impl BagRecording {
 pub fn list_topics(path: &Path, options: &BagOptions) -> Result<Vec<TopicSummary>, RecordingError> {
     let bag = Bag::open(path, options.scratch())?;
     let scan = Scan::new(&bag, options.partial)?;
-    Ok(scan.topics.iter().map(|topic| summary(topic, None)).collect())
+    Ok(summaries(&scan, None))
 }
 
 /// The transforms on `/tf_static` of the bag at `path`, the last for each child.
@@ -43,6 +32,13 @@ pub fn static_transforms(
 ) -> Result<Vec<StaticTransform>, RecordingError> {
     let bag = Bag::open(path, options.scratch())?;
     Ok(Scan::new(&bag, options.partial)?.static_transforms)
+}
+
+/// All topics of a scan, with what those that were `chosen` are to the recording.
+pub(super) fn summaries(scan: &Scan, chosen: Option<&Chosen>) -> Vec<TopicSummary> {
+    let role = |number| chosen.and_then(|chosen| chosen.role(number));
+    let topics = scan.topics.iter().enumerate();
+    topics.map(|(number, topic)| summary(topic, role(number))).collect()
 }
 
 fn summary(topic: &TopicScan, role: Option<&'static str>) -> TopicSummary {
@@ -78,14 +74,18 @@ fn problems(topic: &TopicScan) -> Vec<String> {
     if backward > 0 {
         problems.push(format!("{backward} time stamps run backward"));
     }
-    if let Content::Joints(joints) = &topic.content {
-        let coarsest = joints.tracks().iter().map(Track::tolerance).fold(0.0, f64::max);
-        if coarsest > COARSE {
-            problems.push(format!(
-                "so many positions differ that they are kept to {:.1} mrad or mm only",
-                1e3 * coarsest
-            ));
-        }
+    let coarsest = topic.tracks().iter().map(Track::tolerance).fold(0.0, f64::max);
+    if coarsest > COARSE {
+        problems.push(format!(
+            "so many positions differ that they are kept to {:.1} mrad or mm only",
+            1e3 * coarsest
+        ));
+    }
+    let thinning = topic.tracks().iter().map(Track::thinning).max().unwrap_or(1);
+    if thinning > 1 {
+        problems.push(format!(
+            "so many positions differ that one of {thinning} is kept, and others are unknown"
+        ));
     }
     problems
 }

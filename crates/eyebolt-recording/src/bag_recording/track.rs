@@ -1,10 +1,17 @@
 //! Positions of joints over time, in as few numbers as interpolation needs.
 
+mod piece;
+
+use piece::Piece;
+
 /// Positions that one publisher told, as a broken line through some of its samples.
 ///
 /// A sample that lies on the line between others is not kept, so that hours of an arm at rest take
 /// no memory: the "swinging door" of E. H. Bristol ("Swinging door trending", 1990). The line is
-/// within twice `tolerance` of every sample, or four times where that had to be doubled.
+/// within twice `tolerance` of every sample, or four times where that had to be made coarser.
+///
+/// However much there is to tell, a track is of bounded size: should the line turn too often, it is
+/// made coarser, and if even that is of no help, every other turn is forgotten.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     names: Vec<String>,
@@ -19,18 +26,29 @@ pub(super) struct Track {
     /// Slopes that lead past every sample since the last turn.
     slopes: Vec<(f64, f64)>,
     tolerance: f64,
+    /// How often every other turn was forgotten.
+    thinned: u32,
     count: u64,
     backward: u64,
     first_backward_ns: Option<(i64, i64)>,
+    /// Turns that were gone through again, to make the line coarser.
+    #[cfg(test)]
+    gone_through: usize,
 }
 
 /// Radians or metres: a fifth of a millimetre at the end of an arm, less than encoders make of rest.
 const TOLERANCE: f64 = 1e-4;
-/// Longer without a sample, and the line turns before and after, so that the gap stands alone.
-const GAP_NS: i64 = 50_000_000;
-/// More turns or positions, and the tolerance doubles: most of an hour of motion, or 16 MB.
+/// No line is made coarser than this, radians or metres: ten times what counts as motion.
+const COARSEST: f64 = 512.0 * TOLERANCE;
+/// More turns or positions, and the line is made coarser: most of an hour of motion, or 16 MB.
 const MOST_TURNS: usize = 1 << 18;
 const MOST_POSITIONS: usize = 1 << 21;
+
+/// Between samples that are nearer to each other than this, positions are interpolated, nanoseconds.
+pub(super) const DENSE_NS: i64 = 200_000_000;
+/// And than this, if nothing moved between them: by so much, radians or metres.
+pub(super) const SPARSE_NS: i64 = 1_500_000_000;
+pub(super) const STILL: f64 = 5e-4;
 
 impl Track {
     pub(super) fn new(names: Vec<String>) -> Self {
@@ -43,9 +61,12 @@ impl Track {
             last: None,
             slopes,
             tolerance: TOLERANCE,
+            thinned: 0,
             count: 0,
             backward: 0,
             first_backward_ns: None,
+            #[cfg(test)]
+            gone_through: 0,
         }
     }
 
@@ -56,6 +77,11 @@ impl Track {
     /// How far the line may be from a sample, radians or metres.
     pub(super) fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    /// One of how many turns of the line is left.
+    pub(super) fn thinning(&self) -> u64 {
+        2_u64.saturating_pow(self.thinned)
     }
 
     /// Number of samples.
@@ -93,8 +119,8 @@ impl Track {
             Some((_, last)) => self.extend(stamp_ns, positions, stamp_ns.saturating_sub(last)),
             None => self.turn(stamp_ns, positions, 0),
         }
-        if self.stamps_ns.len() > MOST_TURNS || self.positions.len() > MOST_POSITIONS {
-            self.coarsen();
+        if self.is_larger_than(MOST_TURNS, MOST_POSITIONS) {
+            self.shrink();
         }
     }
 
@@ -106,21 +132,31 @@ impl Track {
     }
 
     fn extend(&mut self, stamp_ns: i64, positions: &[f64], gap_ns: i64) {
-        if gap_ns > GAP_NS {
-            self.finish();
-            self.turn(stamp_ns, positions, gap_ns);
-        } else if self.passes(stamp_ns, positions) {
-            let gap_ns = self.last.as_ref().map_or(gap_ns, |(_, _, longest)| gap_ns.max(*longest));
+        let longest_ns = self.last.as_ref().map_or(gap_ns, |(_, _, longest)| gap_ns.max(*longest));
+        if self.is_known(positions, longest_ns) && self.passes(stamp_ns, positions) {
             let mut kept = self.last.take().map(|(_, kept, _)| kept).unwrap_or_default();
             kept.clear();
             kept.extend_from_slice(positions);
-            self.last = Some((stamp_ns, kept, gap_ns));
-        } else {
-            self.finish();
+            self.last = Some((stamp_ns, kept, longest_ns));
+            return;
+        }
+        self.finish();
+        if self.is_known(positions, gap_ns) {
             // From the new turn, one sample can always be reached.
             self.passes(stamp_ns, positions);
             self.last = Some((stamp_ns, positions.to_vec(), gap_ns));
+        } else {
+            self.turn(stamp_ns, positions, gap_ns);
         }
+    }
+
+    /// Whether it is known where the joints are on the way from the last turn to `positions`, if
+    /// samples are up to `gap_ns` apart on that way. Where it is not, a gap stands alone, so that
+    /// nothing is taken for unknown that is not.
+    fn is_known(&self, positions: &[f64], gap_ns: i64) -> bool {
+        let start = self.at_turn(self.stamps_ns.len().saturating_sub(1));
+        let steps = start.iter().zip(positions).map(|(a, b)| (a - b).abs());
+        gap_ns <= DENSE_NS || (gap_ns <= SPARSE_NS && steps.fold(0.0, f64::max) <= STILL)
     }
 
     /// Narrows the slopes by a sample; whether any are left.
@@ -147,9 +183,50 @@ impl Track {
         self.slopes.fill((f64::NEG_INFINITY, f64::INFINITY));
     }
 
-    /// Doubles the tolerance, which leaves out some turns.
-    fn coarsen(&mut self) {
-        let mut coarse = Self { tolerance: 2.0 * self.tolerance, ..Self::new(self.names.clone()) };
+    fn is_larger_than(&self, turns: usize, positions: usize) -> bool {
+        self.stamps_ns.len() > turns || self.positions.len() > positions
+    }
+
+    /// Halves the line at least, so that a sample seldom makes this necessary, however many come.
+    fn shrink(&mut self) {
+        let last = self.last.take();
+        let mut tolerance = 2.0 * self.tolerance;
+        let smaller = loop {
+            if tolerance > COARSEST {
+                break self.thinner();
+            }
+            let coarser = self.coarser(tolerance);
+            if !coarser.is_larger_than(MOST_TURNS / 2, MOST_POSITIONS / 2) {
+                break coarser;
+            }
+            tolerance *= 2.0;
+            #[cfg(test)]
+            {
+                self.gone_through += self.stamps_ns.len();
+            }
+        };
+        let (end_ns, kept_end_ns) =
+            (self.stamps_ns.last().copied(), smaller.stamps_ns.last().copied());
+        *self = Self {
+            count: self.count,
+            backward: self.backward,
+            first_backward_ns: self.first_backward_ns,
+            #[cfg(test)]
+            gone_through: self.gone_through + self.stamps_ns.len(),
+            ..smaller
+        };
+        if let Some((stamp, positions, gap)) = last {
+            // The last turn may be one of those that were forgotten.
+            let forgotten = kept_end_ns.filter(|_| kept_end_ns != end_ns);
+            let gap = forgotten.map_or(gap, |end_ns| stamp.saturating_sub(end_ns));
+            self.extend(stamp, &positions, gap);
+        }
+    }
+
+    /// The line with another tolerance, through some of its turns.
+    fn coarser(&self, tolerance: f64) -> Self {
+        let thinned = self.thinned;
+        let mut coarse = Self { tolerance, thinned, ..Self::new(self.names.clone()) };
         for (index, (stamp, gap)) in self.stamps_ns.iter().zip(&self.gaps_ns).enumerate() {
             match coarse.stamps_ns.is_empty() {
                 true => coarse.turn(*stamp, self.at_turn(index), 0),
@@ -157,16 +234,18 @@ impl Track {
             }
         }
         coarse.finish();
-        let last = self.last.take();
-        *self = Self {
-            count: self.count,
-            backward: self.backward,
-            first_backward_ns: self.first_backward_ns,
-            ..coarse
-        };
-        if let Some((stamp, positions, gap)) = last {
-            self.extend(stamp, &positions, gap);
+        coarse
+    }
+
+    /// The line through every other of its turns. Between these nobody knows the way any more.
+    fn thinner(&self) -> Self {
+        let (tolerance, thinned) = (self.tolerance, self.thinned.saturating_add(1));
+        let mut thin = Self { tolerance, thinned, ..Self::new(self.names.clone()) };
+        for (index, stamp) in self.stamps_ns.iter().enumerate().step_by(2) {
+            let before = thin.stamps_ns.last().map_or(*stamp, |before| *before);
+            thin.turn(*stamp, self.at_turn(index), stamp.saturating_sub(before));
         }
+        thin
     }
 
     fn at_turn(&self, index: usize) -> &[f64] {
@@ -242,27 +321,6 @@ impl Track {
             true => (high - low, joint),
             false => most,
         })
-    }
-}
-
-/// A straight part of a track.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece<'a> {
-    start_ns: i64,
-    end_ns: i64,
-    /// Longest time without a sample, nanoseconds.
-    pub(super) gap_ns: i64,
-    pub(super) start: &'a [f64],
-    pub(super) end: &'a [f64],
-}
-
-impl Piece<'_> {
-    /// Positions at a time within the piece.
-    pub(super) fn at(&self, stamp_ns: i64) -> Vec<f64> {
-        let since_start = |ns: i64| ns.saturating_sub(self.start_ns) as f64;
-        let length = since_start(self.end_ns);
-        let share = if length > 0.0 { since_start(stamp_ns) / length } else { 0.0 };
-        self.start.iter().zip(self.end).map(|(a, b)| a + share * (b - a)).collect()
     }
 }
 

@@ -59,7 +59,10 @@ fn in_bag(path: &Path) -> Result<Truth, RecordingError> {
 pub(crate) fn text_of(recording: &Recording) -> Result<Option<String>, RecordingError> {
     match recording {
         Recording::Folder(folder) => in_folder(folder.path().parent().unwrap_or(Path::new(""))),
-        Recording::Bag(recording) => of_bag(recording.messages(), recording.path()),
+        Recording::Bag(recording) => {
+            let copied = recording.copy_source();
+            of_bag(copied.messages(), copied.path())
+        }
         Recording::Other(_) => Ok(None),
     }
 }

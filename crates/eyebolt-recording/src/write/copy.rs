@@ -6,10 +6,9 @@ use super::messages;
 use super::recording_writer::DESCRIPTION;
 use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
-use crate::bag_recording::BagRecording;
+use crate::bag_recording::CopySource;
 use crate::camera_info::camera_info_message;
 use crate::error::RecordingError;
-use crate::frame_source::FrameSource;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
     JointStateMessage, WireProblem, WireReader, WireWriter, text, transforms, types,
@@ -22,7 +21,7 @@ use std::io::{Seek, Write};
 /// Copies the messages of the topics that make the recording, and of `/tf_static`. A robot
 /// description of its own stays out where `robot` has another.
 pub(super) fn bag<W: Write + Seek>(
-    bag: &BagRecording,
+    bag: CopySource<'_>,
     robot: &WriteRobot,
     writer: &mut McapWriter<W>,
     progress: &dyn Progress,
@@ -57,14 +56,14 @@ pub(super) fn bag<W: Write + Seek>(
 
 /// The description to write in the place of the bag's; `None` where they are the same, which is then
 /// copied with the time that it has.
-fn other_description<'a>(bag: &BagRecording, robot: &'a WriteRobot) -> Option<&'a str> {
+fn other_description<'a>(bag: CopySource<'_>, robot: &'a WriteRobot) -> Option<&'a str> {
     let own = bag.robot().description.as_deref();
     robot.urdf.as_deref().filter(|urdf| own != Some(*urdf))
 }
 
 /// What was given instead of what the bag has: written once, before the first message.
 struct Extra<'a> {
-    bag: &'a BagRecording,
+    bag: CopySource<'a>,
     urdf: Option<&'a str>,
     written: bool,
 }
@@ -86,14 +85,14 @@ impl Extra<'_> {
             let frame_id = self.bag.camera_frame_id().unwrap_or_default();
             let header = Header { stamp_ns: time_ns, frame_id };
             let data = camera_info_message(camera, header).write();
-            writer.write(&topic, types::CAMERA_INFO, time_ns, &data)?;
+            writer.write(topic, types::CAMERA_INFO, time_ns, &data)?;
         }
         Ok(())
     }
 }
 
 fn one<W: Write + Seek>(
-    bag: &BagRecording,
+    bag: CopySource<'_>,
     message: &Message<'_>,
     writer: &mut McapWriter<W>,
 ) -> Result<(), WriteError> {

@@ -78,7 +78,11 @@ fn frames(
             let png = png::mask(mask.width(), mask.height(), mask.as_slice());
             output.picture(&format!("mask_{name}.png"), png)?;
         }
-        let color = recording.read_color(index)?;
+        // Colour is for people only, who do without some pictures.
+        let color = match recording.read_color(index) {
+            Err(error) if recording.may_leave_out(&error) => None,
+            read => read?,
+        };
         if let Some(color) = &color {
             let png = png::rgb(color.width, color.height, &color.rgb);
             output.picture(&format!("color_{name}.png"), png)?;

@@ -3,7 +3,6 @@
 use super::error::WriteError;
 use super::recording_writer::{Described, RecordingWriter};
 use super::robot::WriteRobot;
-use crate::bag_recording::BagRecording;
 use crate::frame::Range;
 use crate::own_metadata::SCHEMA;
 use crate::progress::Progress;
@@ -18,7 +17,8 @@ const STEP_NS: i64 = 1_000_000_000;
 
 /// What eyebolt knows of a recording that no message says.
 pub(super) fn metadata(recording: &Recording, robot: &WriteRobot) -> BTreeMap<String, String> {
-    let mut values = recording.bag().map(BagRecording::metadata).unwrap_or_default();
+    let mut values =
+        recording.bag().map(|bag| bag.copy_source().metadata().clone()).unwrap_or_default();
     values.insert("schema".to_owned(), SCHEMA.to_owned());
     let known = recording.robot();
     let mut add = |key: &str, value: Option<&String>| {
@@ -60,7 +60,10 @@ pub(super) fn write(
     let mut stamps = (1..).map(|second| second * STEP_NS);
     for (index, stamp_ns) in (0..backgrounds).zip(&mut stamps) {
         progress.advance(index, total)?;
-        let background = recording.read_background(index)?;
+        let background = match recording.read_background(index) {
+            Err(error) if recording.may_leave_out(&error) => continue,
+            read => read?,
+        };
         writer.background_in(stamp_ns, &background, recording.backgrounds_in_millimetres())?;
     }
     for (index, stamp_ns) in (0..frames).zip(&mut stamps) {

@@ -44,7 +44,7 @@ fn flagged(mut bag: Bag) -> Bag {
 
 #[test]
 fn they_are_found_by_metadata_and_by_flag() {
-    sample().assert_says(&["--depth-topic", "several topics", TOPIC, DEPTH_TOPIC]);
+    sample().assert_says(&["`depth_topic`", "several topics", TOPIC, DEPTH_TOPIC]);
     for bag in [named(sample()), flagged(sample())] {
         let bag = bag.open();
         assert_eq!(bag.frame_names(), Bag::sample().open().frame_names());
@@ -73,21 +73,21 @@ fn a_flag_goes_before_the_metadata() {
     assert_eq!(bag.role("depth").as_deref(), Some(TOPIC));
     let mut both = flagged(sample());
     both.options.depth_topic = Some(TOPIC.to_owned());
-    both.assert_says(&["--background-topic", TOPIC, "the depth too", "leave one of the flags out"]);
+    both.assert_says(&["`background_topic`", TOPIC, "the depth too", "or only one of them"]);
 }
 
 #[test]
 fn a_topic_that_is_named_must_be_there() {
     let bag = named(Bag::sample());
     bag.assert_says(&["metadata: background_topic", "there is no topic", TOPIC]);
-    flagged(Bag::sample()).assert_says(&["--background-topic", "there is no topic", TOPIC]);
+    flagged(Bag::sample()).assert_says(&["`background_topic`", "there is no topic", TOPIC]);
     let mut bag = named(Bag::sample());
     bag.options.partial = true;
     assert_eq!(bag.open().background_count(), 0);
     // What a flag asks for is not left out.
     let mut bag = flagged(Bag::sample());
     bag.options.partial = true;
-    bag.assert_says(&["--background-topic", "there is no topic"]);
+    bag.assert_says(&["`background_topic`", "there is no topic"]);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn only_depth_images_are_backgrounds() {
         START_NS,
         writer::cloud(START_NS, FRAME, SIZE, &[[0.1, 0.0, 1.0]; PIXELS]),
     );
-    let said = ["--background-topic", "of type sensor_msgs/PointCloud2", "has no depth images"];
+    let said = ["`background_topic`", "of type sensor_msgs/PointCloud2", "has no depth images"];
     flagged(bag).assert_says(&said);
 }
 
@@ -116,7 +116,7 @@ fn clouds_have_backgrounds_if_they_have_a_camera() {
     let opened = bag.open();
     assert_eq!(opened.role("depth").as_deref(), Some("/camera/depth/points"));
     assert_eq!(opened.read_background(0).unwrap().depth_m()[0], FIRST_M);
-    bag.without(INFO_TOPIC).assert_says(&[TOPIC, "no camera for it", "--camera-info"]);
+    bag.without(INFO_TOPIC).assert_says(&[TOPIC, "no camera for it", "`camera_info`"]);
 }
 
 #[test]
@@ -139,11 +139,43 @@ fn they_are_of_the_camera_and_in_their_unit() {
 fn damage_is_an_error_or_left_out() {
     let mut bag = named(sample());
     bag.on(TOPIC)[0].data.truncate(90);
-    bag.assert_says(&[TOPIC, "data: takes 48 bytes", "--partial"]);
+    bag.assert_says(&[TOPIC, "data: takes 48 bytes", "`partial`"]);
     bag.options.partial = true;
     let bag = bag.open();
     assert_eq!(bag.background_count(), 1);
     assert_eq!(bag.read_background(0).unwrap().depth_m()[0], FIRST_M);
+}
+
+/// Of compressed images only the reading tells that they are damaged.
+#[test]
+fn damage_seen_late_is_left_out_too() {
+    let mut bag = named(sample());
+    for (index, message) in bag.on(TOPIC).into_iter().enumerate() {
+        let mut rvl = vec![0; 12];
+        rvl.extend([4, 0, 0, 0, 3, 0, 0, 0]);
+        // A run of twelve zeros and none filled; or nothing at all.
+        rvl.extend(if index == 0 { vec![] } else { 0xc1_00_00_00_u32.to_le_bytes().to_vec() });
+        message.message_type = "sensor_msgs/CompressedImage";
+        let format = "16UC1; compressedDepth rvl";
+        message.data = writer::compressed(message.log_time_ns, FRAME, format, &rvl);
+    }
+    let strict = bag.open();
+    let error = strict.read_background(0).unwrap_err();
+    assert!(!strict.may_leave_out(&error), "{error}");
+    bag.options.partial = true;
+    let (folder, path) = bag.write();
+    let recording = Recording::open(&path, &bag.options).unwrap();
+    assert_eq!(recording.background_count(), 2);
+    assert!(recording.may_leave_out(&recording.read_background(0).unwrap_err()));
+    assert_eq!(recording.read_background(1).unwrap().depth_m(), [0.0; PIXELS]);
+    let [files, copy] = ["files", "copy.mcap"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&files).unwrap();
+    let (robot, go_on) = (WriteRobot::default(), &());
+    write_folder(&recording, &robot, &files, go_on).unwrap();
+    let written = Recording::open(&files, &BagOptions::default()).unwrap();
+    assert_eq!(written.background_count(), 1);
+    write_mcap(&recording, &robot, File::create(&copy).unwrap(), go_on).unwrap();
+    assert_eq!(Recording::open(&copy, &bag.options).unwrap().background_count(), 2);
 }
 
 /// Each keeps the unit that it was stored in, and so all its bits.

@@ -26,7 +26,7 @@ fn beside_the_picture_is_best() {
     bag.options.camera_info_topic = Some("/other/camera_info".to_owned());
     assert_eq!(focal(&bag), 9.0);
     bag.options.camera_info_topic = Some("/joint_states".to_owned());
-    bag.assert_says(&["--camera-info-topic", INFO_TOPIC, "/other/camera_info"]);
+    bag.assert_says(&["`camera_info_topic`", INFO_TOPIC, "/other/camera_info"]);
 }
 
 #[test]
@@ -35,10 +35,10 @@ fn elsewhere_the_size_and_the_frame_must_agree() {
     info(&mut bag, "/a/camera_info", FRAME, (8, 6), 7.0);
     info(&mut bag, "/b/camera_info", "other", SIZE, 8.0);
     bag.assert_says(&[
-        "--camera-info-topic",
+        "`camera_info_topic`",
         &format!("the intrinsics of {DEPTH_TOPIC}"),
         "/a/camera_info",
-        "--camera-info",
+        "`camera_info`",
     ]);
     info(&mut bag, "/c/camera_info", FRAME, SIZE, 9.0);
     assert_eq!(focal(&bag), 9.0);
@@ -88,7 +88,7 @@ fn a_file_stands_in() {
     }
     rectified.options.camera_info = Some(file.clone());
     assert_eq!(rectified.open().camera().unwrap().fx(), 7.0);
-    without_info().assert_says(&["no topic has the intrinsics", "--camera-info"]);
+    without_info().assert_says(&["no topic has the intrinsics", "`camera_info`"]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn one_topic_tells_one_camera() {
     info(&mut bag, INFO_TOPIC, FRAME, SIZE, 5.0);
     assert_eq!(focal(&bag), 5.0);
     info(&mut bag, INFO_TOPIC, FRAME, SIZE, 5.25);
-    bag.assert_says(&[INFO_TOPIC, "the intrinsics change at 1700000000.002 s", "--camera-info"]);
+    bag.assert_says(&[INFO_TOPIC, "the intrinsics change at 1700000000.002 s", "`camera_info`"]);
     let mut sizes = Bag::sample();
     info(&mut sizes, INFO_TOPIC, FRAME, (8, 6), 5.0);
     sizes.assert_says(&["the intrinsics change"]);
@@ -107,7 +107,7 @@ fn one_topic_tells_one_camera() {
 fn a_camera_without_calibration_is_refused() {
     let mut bag = without_info();
     info(&mut bag, INFO_TOPIC, FRAME, SIZE, 0.0);
-    bag.assert_says(&[INFO_TOPIC, "the focal length is 0 x 0", "--camera-info"]);
+    bag.assert_says(&[INFO_TOPIC, "the focal length is 0 x 0", "`camera_info`"]);
 }
 
 #[test]
@@ -115,6 +115,6 @@ fn a_camera_of_another_size_is_refused_with_the_frame() {
     let mut bag = without_info();
     info(&mut bag, INFO_TOPIC, FRAME, (8, 6), 5.0);
     let parts =
-        [DEPTH_TOPIC, "at 1700000000.005 s", "the image is 4 x 3", "is 8 x 6", "--camera-info"];
+        [DEPTH_TOPIC, "at 1700000000.005 s", "the image is 4 x 3", "is 8 x 6", "`camera_info`"];
     super::sample::assert_says(bag.open().read_frame(0), &parts);
 }

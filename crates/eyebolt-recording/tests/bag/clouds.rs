@@ -49,7 +49,7 @@ fn both_frames_are_told_by_where_the_points_lie() {
 fn doubt_is_an_error_that_an_option_ends() {
     let corner = [[1.0, 0.1, 1.0]; 12];
     let mut doubtful = bag("camera", SIZE, &corner);
-    doubtful.assert_says(&[TOPIC, "may be in the optical frame or in the body's", "--cloud-frame"]);
+    doubtful.assert_says(&[TOPIC, "may be in the optical frame or in the body's", "`cloud_frame`"]);
     doubtful.options.cloud_frame = Some(CloudFrame::Body);
     assert_eq!(read(&doubtful).0[0], [-0.1, -1.0, 1.0]);
     doubtful.options.cloud_frame = Some(CloudFrame::Optical);

@@ -16,7 +16,7 @@ fn a_damaged_frame_is_an_error_or_dropped() {
     for (damage, said) in damages {
         let mut bag = Bag::sample();
         damage(&mut bag.on(DEPTH_TOPIC)[2].data);
-        bag.assert_says(&[DEPTH_TOPIC, said, "message of 1700000000.205 s", "--partial"]);
+        bag.assert_says(&[DEPTH_TOPIC, said, "message of 1700000000.205 s", "`partial`"]);
         bag.options.partial = true;
         let bag = bag.open();
         let (index, reason) = bag.reasons().remove(0);

@@ -117,7 +117,7 @@ fn positions_that_are_no_numbers_are_told() {
             "/joint_states: position",
             &said,
             "message of 1700000000.005 s",
-            "--partial",
+            "`partial`",
         ]);
         bag.options.partial = true;
         let bag = bag.open();

@@ -9,6 +9,7 @@ mod empty;
 mod joints;
 mod motion;
 mod pictures;
+mod reader;
 mod real;
 mod sample;
 mod topics;

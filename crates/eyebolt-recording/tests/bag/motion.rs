@@ -50,7 +50,7 @@ fn an_arm_that_never_rests_is_told() {
         DEPTH_TOPIC,
         "none of its 60 frames can be used",
         "the arm moved",
-        "--max-motion-deg",
+        "`max_motion`",
     ]);
 }
 

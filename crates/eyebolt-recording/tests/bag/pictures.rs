@@ -133,7 +133,7 @@ fn of_several_masks_one_is_to_be_named() {
         START_NS,
         writer::image(START_NS, FRAME, "mono8", SIZE, &[1; 12]),
     );
-    bag.assert_says(&["--mask-topic", "/arm_mask, /other_mask"]);
+    bag.assert_says(&["`mask_topic`", "/arm_mask, /other_mask"]);
     bag.options.mask_topic = Some("/arm_mask".to_owned());
     assert!(bag.open().has_masks());
 }

@@ -6,6 +6,7 @@ use super::sample::{
 };
 use super::writer;
 use eyebolt_recording::FrameSource;
+use eyebolt_robot::Input;
 
 fn one_depth(bag: &mut Bag, topic: &str) {
     let data = writer::depth(START_NS, FRAME, SIZE, &[1.0; PIXELS]);
@@ -46,11 +47,11 @@ fn the_only_ones_are_found_by_type() {
 fn of_several_one_must_be_named() {
     let mut bag = Bag::sample();
     one_depth(&mut bag, "/other/depth");
-    bag.assert_says(&["--depth-topic", "several topics have depth", DEPTH_TOPIC, "/other/depth"]);
+    bag.assert_says(&["`depth_topic`", "several topics have depth", DEPTH_TOPIC, "/other/depth"]);
     bag.options.depth_topic = Some(DEPTH_TOPIC.to_owned());
     assert_eq!(bag.open().role("depth").as_deref(), Some(DEPTH_TOPIC));
     bag.add("/gripper", JOINT_STATE, START_NS, writer::joint_state(START_NS, &[("finger", 0.1)]));
-    bag.assert_says(&["--joint-topic", "several topics", "/joint_states, /gripper"].map(
+    bag.assert_says(&["`joint_topic`", "several topics", "/joint_states, /gripper"].map(
         |s| match s {
             "/joint_states, /gripper" => "/gripper, /joint_states",
             other => other,
@@ -64,20 +65,21 @@ fn of_several_one_must_be_named() {
 fn a_wrong_name_is_told_with_the_right_ones() {
     let mut bag = Bag::sample();
     bag.options.depth_topic = Some("/depth".to_owned());
-    bag.assert_says(&["--depth-topic: there is no topic /depth", "Give one of", DEPTH_TOPIC]);
+    bag.assert_says(&["`depth_topic`: there is no topic /depth", "Give one of", DEPTH_TOPIC]);
     bag.options.depth_topic = Some("/joint_states".to_owned());
     bag.assert_says(&["/joint_states is of type sensor_msgs/JointState and has no depth"]);
     bag.options.depth_topic = None;
     bag.options.joint_topic = Some(DEPTH_TOPIC.to_owned());
-    bag.assert_says(&["--joint-topic", "sensor_msgs/Image", "Give one of /joint_states"]);
+    bag.assert_says(&["`joint_topic`", "sensor_msgs/Image", "Give one of /joint_states"]);
+    assert_eq!(bag.try_open().err().unwrap().input(), Some(Input::JOINT_TOPIC));
 }
 
 #[test]
 fn what_is_missing_is_named() {
     let needed = |topic: &str| Bag::sample().without(topic);
-    needed("/joint_states").assert_says(&["--joint-topic: no topic has joint states", DEPTH_TOPIC]);
+    needed("/joint_states").assert_says(&["`joint_topic`: no topic has joint states", DEPTH_TOPIC]);
     needed(DEPTH_TOPIC)
-        .assert_says(&["--depth-topic: no topic has depth", "/joint_states (sensor"]);
+        .assert_says(&["`depth_topic`: no topic has depth", "/joint_states (sensor"]);
     Bag::default().assert_says(&["no topic has depth", "no messages at all"]);
     let mut colour = needed(DEPTH_TOPIC);
     let rgb = writer::image(START_NS, FRAME, "rgb8", SIZE, &[7; 3 * PIXELS]);

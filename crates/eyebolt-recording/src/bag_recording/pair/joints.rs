@@ -1,16 +1,11 @@
 //! Where the joints of all publishers are at one time.
 
-use super::super::track::Track;
-use super::SMALLEST_LIMIT;
+use crate::bag_recording::track::{DENSE_NS, SPARSE_NS, STILL, Track};
 use crate::provenance::DropReason;
 use std::collections::BTreeSet;
 
 /// Joints of the same frame rate as the frames need not be nearer than this, nanoseconds.
 const NEAR_NS: i64 = 25_000_000;
-/// Between joint states that are nearer to each other than this, positions are interpolated.
-const DENSE_NS: i64 = 200_000_000;
-/// And than this, if nothing moved between them.
-const SPARSE_NS: i64 = 1_500_000_000;
 
 /// Joints that are told more seldom, beside others, are told when they change: no arm is.
 pub(super) const ON_CHANGE_NS: i64 = 2_000_000_000;
@@ -89,7 +84,7 @@ fn positions_at(track: &Track, stamp_ns: i64) -> Result<Vec<f64>, DropReason> {
     if let Some(piece) = track.piece(stamp_ns) {
         let still = || {
             let steps = piece.start.iter().zip(piece.end).map(|(a, b)| (a - b).abs());
-            steps.fold(0.0, f64::max) <= SMALLEST_LIMIT
+            steps.fold(0.0, f64::max) <= STILL
         };
         if piece.gap_ns <= DENSE_NS || (piece.gap_ns <= SPARSE_NS && still()) {
             return Ok(piece.at(stamp_ns));

@@ -1,5 +1,6 @@
 //! Laws of pairing, whatever the frames and joints.
 
+use super::limit::{LARGEST_LIMIT, SMALLEST_LIMIT};
 use super::*;
 use crate::bag::Locator;
 use proptest::prelude::*;

@@ -1,12 +1,12 @@
 //! Joint states as a scan meets them.
 
-use super::super::track::Track;
+use crate::bag_recording::track::Track;
 use crate::message::{JointStateMessage, WireProblem};
 
 /// Positions of the joints of one topic: one track for each set of names, for each publisher tells
 /// its own joints.
 #[derive(Debug, Default)]
-pub(in super::super) struct JointTracks {
+pub(crate) struct JointTracks {
     tracks: Vec<Track>,
     /// Positions in the order of a track.
     sorted: Vec<f64>,
@@ -21,7 +21,7 @@ const FARTHEST: f64 = 1e6;
 
 impl JointTracks {
     /// All tracks, in the order in which they began.
-    pub(in super::super) fn tracks(&self) -> &[Track] {
+    pub(crate) fn tracks(&self) -> &[Track] {
         &self.tracks
     }
 

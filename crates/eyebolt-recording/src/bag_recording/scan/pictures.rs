@@ -8,10 +8,10 @@ use crate::message::{
 
 /// Pictures of one topic.
 #[derive(Debug)]
-pub(in super::super) struct Pictures {
-    pub(in super::super) kind: PictureKind,
+pub(crate) struct Pictures {
+    pub(crate) kind: PictureKind,
     /// All, whether of use or not, in the order of the bag.
-    pub(in super::super) frames: Vec<FrameEntry>,
+    pub(crate) frames: Vec<FrameEntry>,
     /// Some pixels of the last depth image.
     samples: Vec<f32>,
     /// How many of them differ from those before, until it is noted.
@@ -20,7 +20,7 @@ pub(in super::super) struct Pictures {
 
 /// How pictures are stored, told by the first one that can be read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(in super::super) enum PictureKind {
+pub(crate) enum PictureKind {
     Image {
         encoding: String,
         size: (u32, u32),
@@ -37,7 +37,7 @@ pub(in super::super) enum PictureKind {
 
 impl PictureKind {
     /// Whether distances can be read from it, the best kind first.
-    pub(in super::super) fn range_rank(&self) -> Option<u8> {
+    pub(crate) fn range_rank(&self) -> Option<u8> {
         match self {
             // Infrared pictures are grey of 16 bits too.
             Self::Image { encoding, .. } if encoding == "mono16" => Some(3),
@@ -51,20 +51,20 @@ impl PictureKind {
 
 /// When and where a picture was recorded.
 #[derive(Clone, Debug)]
-pub(in super::super) struct FrameEntry {
-    pub(in super::super) stamp_ns: i64,
+pub(crate) struct FrameEntry {
+    pub(crate) stamp_ns: i64,
     /// Nobody set its stamp; the time of recording, which is of another clock, stands in.
-    pub(in super::super) stands_in: bool,
-    pub(in super::super) locator: Locator,
+    pub(crate) stands_in: bool,
+    pub(crate) locator: Locator,
     /// Why it is of no use, if the scan could see that.
-    pub(in super::super) unfit: Option<Unfit>,
+    pub(crate) unfit: Option<Unfit>,
     /// Share of the pixels whose depth differs from the last image's; NaN where nobody knows.
-    pub(in super::super) change: f32,
+    pub(crate) change: f32,
 }
 
 /// Why a picture is of no use.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in super::super) enum Unfit {
+pub(crate) enum Unfit {
     /// Its message is damaged, or not like the first one.
     Unreadable(Box<WireProblem>),
     /// It is of depth, and has none.

@@ -19,6 +19,90 @@ fn hours_at_rest_take_no_memory() {
     assert_eq!(track.count(), 100_000);
 }
 
+/// Ten hours, ten times a second.
+const LONG: i64 = 360_000;
+
+fn long(position: impl Fn(f64) -> [f64; 7]) -> Track {
+    let mut track = Track::new((1..8).map(|i| format!("j{i}")).collect());
+    (0..LONG).for_each(|i| track.push(100 * MS * i, &position(0.1 * i as f64)));
+    track.finish();
+    assert_eq!(track.count() as i64, LONG);
+    assert!(!track.is_larger_than(MOST_TURNS + 1, MOST_POSITIONS + 7));
+    track
+}
+
+#[test]
+fn hours_of_seldom_samples_at_rest_take_no_memory_either() {
+    let noise = |seconds: f64, joint: usize| 0.4e-4 * (seconds * (7.0 + joint as f64)).sin();
+    let track = long(|seconds| std::array::from_fn(|joint| 0.5 + noise(seconds, joint)));
+    assert!(track.stamps_ns.len() < 10, "{} turns", track.stamps_ns.len());
+    assert_eq!((track.gone_through, track.thinning()), (0, 1));
+    // Three times in two seconds, and around the bounds of what is dense.
+    for steps in [[700, 600], [190, 210], [1400, 1500]] {
+        let (mut track, mut stamp) = (Track::new(vec!["j".to_owned()]), 0);
+        for i in 0..20_000 {
+            track.push(stamp, &[noise(stamp as f64 * 1e-9, 0)]);
+            stamp += MS * steps[i % 2];
+        }
+        track.finish();
+        assert!(track.stamps_ns.len() < 10, "{} turns of {steps:?}", track.stamps_ns.len());
+        assert!(track.piece(stamp / 2).unwrap().gap_ns <= SPARSE_NS);
+    }
+}
+
+/// At rest for most of a minute, then on to the next place within three seconds.
+#[test]
+fn hours_of_seldom_samples_and_some_motion_take_little() {
+    let place = |minute: f64, joint: usize| (minute * (1.0 + 0.3 * joint as f64)).sin();
+    let at = |seconds: f64| -> [f64; 7] {
+        let minute = (seconds / 60.0).floor();
+        let share = ((seconds - 60.0 * minute - 57.0) / 3.0).clamp(0.0, 1.0);
+        // From rest to rest.
+        let share = share * share * (3.0 - 2.0 * share);
+        std::array::from_fn(|j| (1.0 - share) * place(minute, j) + share * place(minute + 1.0, j))
+    };
+    let track = long(at);
+    // No more than the samples in motion.
+    assert!(track.stamps_ns.len() < 600 * 32, "{} turns", track.stamps_ns.len());
+    assert_eq!((track.gone_through, track.tolerance()), (0, TOLERANCE));
+    for minute in [0.0, 17.0, 599.0] {
+        let at_rest = track.piece((60e9 * minute + 30e9) as i64).unwrap();
+        assert_eq!((at_rest.gap_ns, at_rest.start[3]), (100 * MS, place(minute, 3)));
+    }
+}
+
+/// All samples differ by much, so that no tolerance is of help: it stays, and what is done for all of
+/// them is in proportion to their number.
+#[test]
+fn motion_that_no_line_follows_is_thinned() {
+    let mut random = 1_u64;
+    let mut next = move || {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (random >> 40) as f64 * 1e-6
+    };
+    let mut track = Track::new(vec!["j".to_owned()]);
+    let count = 4 * MOST_TURNS as i64;
+    (0..count).for_each(|i| track.push(10 * MS * i, &[next()]));
+    track.finish();
+    assert!(track.stamps_ns.len() <= MOST_TURNS + 1);
+    assert_eq!(track.tolerance(), TOLERANCE);
+    assert!(track.thinning() > 1 && track.gone_through < 20 * count as usize);
+    // What was forgotten is a gap.
+    let piece = track.piece(15 * MS).unwrap();
+    assert!(piece.gap_ns >= 20 * MS && piece.gap_ns == piece.end_ns - piece.start_ns);
+    assert_eq!(track.span_ns(), Some((0, 10 * MS * (count - 1))));
+}
+
+#[test]
+fn a_line_that_turns_too_often_is_made_coarser() {
+    // A shake of one milliradian.
+    let samples: Vec<_> =
+        (0..2 * MOST_TURNS as i64).map(|i| (i * MS, if i % 2 == 0 { 1e-3 } else { 0.0 })).collect();
+    let track = track(&samples);
+    assert!(track.tolerance() > TOLERANCE && track.tolerance() < 1e-2 && track.thinning() == 1);
+    assert!(track.stamps_ns.len() <= MOST_TURNS && track.gone_through < 20 * samples.len());
+}
+
 #[test]
 fn a_gap_is_known_and_stands_alone() {
     let mut samples: Vec<_> = (0..100).map(|i| (i * 10 * MS, 0.0)).collect();
@@ -92,9 +176,9 @@ proptest! {
         }).collect();
         let mut coarse = Track::new(vec!["j".to_owned()]);
         samples.iter().for_each(|(stamp, position)| coarse.push(*stamp, &[*position]));
-        let before = coarse.stamps_ns.len();
-        (0..4).for_each(|_| coarse.coarsen());
         coarse.finish();
+        let before = coarse.stamps_ns.len();
+        (0..4).for_each(|_| coarse = coarse.coarser(2.0 * coarse.tolerance));
         prop_assert!(coarse.stamps_ns.len() <= before + 1);
         prop_assert_eq!(coarse.span_ns(), Some((0, samples.last().unwrap().0)));
         for (stamp, position) in samples {
