@@ -88,12 +88,14 @@ impl DistanceField {
     ///
     /// Beyond the grid the distance to the grid's box is added: never less than the true distance,
     /// and over by no more than the distance at the box, so it keeps growing.
+    #[inline]
     pub fn sample(&self, point: &Point3<f32>) -> DistanceSample {
         let (base, part, beyond) = self.locate(point);
         self.sample_at(base, part, beyond)
     }
 
     /// As [`Self::sample`], or `None` where the grid's border alone is farther than `limit_m`.
+    #[inline]
     pub(crate) fn sample_within(
         &self,
         point: &Point3<f32>,
@@ -110,6 +112,7 @@ impl DistanceField {
     }
 
     /// The cell of `point`, where in the cell it is, and how far beyond the grid, metres.
+    #[inline]
     fn locate(&self, point: &Point3<f32>) -> ([usize; 3], [f32; 3], Vector3<f32>) {
         let inverse = 1.0 / self.voxel_m;
         let mut base = [0usize; 3];
@@ -126,6 +129,7 @@ impl DistanceField {
         (base, part, beyond)
     }
 
+    #[inline]
     fn sample_at(&self, base: [usize; 3], part: [f32; 3], beyond: Vector3<f32>) -> DistanceSample {
         let mut sample = self.interpolate(base, part, 1.0 / self.voxel_m);
         let outside = beyond.norm_squared();
@@ -153,6 +157,7 @@ impl DistanceField {
         Some(f32::from(step) * self.step_m)
     }
 
+    #[inline]
     fn interpolate(&self, [i, j, k]: [usize; 3], part: [f32; 3], inverse: f32) -> DistanceSample {
         let [nx, ny, _] = self.size;
         let [x, y, z] = part;

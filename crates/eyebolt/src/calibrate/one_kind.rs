@@ -6,6 +6,7 @@ use eyebolt_registration::{
     EVIDENCE_KINDS, JointPrior, RefineOptions, RefineView, Refinement, Start, Trust,
 };
 use nalgebra::{SMatrix, SVector};
+use rayon::prelude::*;
 
 /// Steps from the answer of all kinds to that of one.
 const STEPS: usize = 8;
@@ -13,7 +14,7 @@ const STEPS: usize = 8;
 /// What each kind of evidence that was seen makes of `refinement` alone, with joints as likely to
 /// be off; `None` if there are not two.
 pub(super) fn one_kind_each(
-    work: &mut Workspace<'_, '_>,
+    work: &Workspace<'_, '_>,
     seen: &[RefineView<'_>],
     refinement: &Refinement,
 ) -> Option<Vec<Start>> {
@@ -22,13 +23,15 @@ pub(super) fn one_kind_each(
     if kinds.len() < 2 {
         return None;
     }
+    let (arm, rasters) = (&work.observations.arm, &work.rasters);
     let alone = |kind: &usize| {
         let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
         let options = RefineOptions { trust: Trust::Only(*kind), joint_prior, ..again(STEPS) };
-        let (arm, rasters) = (&work.observations.arm, &mut work.rasters);
+        // Side by side, since a few views keep no more than a few cores busy.
+        let rasters = &mut rasters.clone();
         eyebolt_registration::refine(arm, seen, rasters, &refinement.end(), &options).end()
     };
-    Some(kinds.iter().map(alone).collect())
+    Some(kinds.par_iter().map(alone).collect())
 }
 
 /// Mean square of `deltas` about their mean: of two, half of their difference squared.
