@@ -36,7 +36,8 @@
 //! or, as `joints.json`, `{"0": {"joint_1": 0.5, "joint_2": -1.25}}`, where the inner object may as
 //! well be a `sensor_msgs/JointState` with `name` and `position`.
 //!
-//! Paths are relative to the file. [`Folder`] reads it; everything returned is in metres, radians
+//! Paths are relative to the file. [`Folder`] reads it, [`BagRecording`] reads bags, [`InMemory`] has
+//! frames that are in no file, and all are a [`FrameSource`]; everything returned is in metres, radians
 //! and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors
 //! that name the file, the field and what to do.
 

@@ -1,8 +1,8 @@
 //! Positions of joints over time, in as few numbers as interpolation needs.
 
-mod piece;
+mod line;
 
-use piece::Piece;
+use line::{Line, Piece};
 
 /// Positions that one publisher told, as a broken line through some of its samples.
 ///
@@ -15,12 +15,8 @@ use piece::Piece;
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     names: Vec<String>,
-    /// Nanoseconds, rising.
-    stamps_ns: Vec<i64>,
-    /// Positions at the stamps, one per name.
-    positions: Vec<f64>,
-    /// Longest time without a sample on the way to each stamp, nanoseconds.
-    gaps_ns: Vec<i64>,
+    /// Of one position per name.
+    line: Line,
     /// The last sample, which the line need not turn at, and the longest gap on the way there.
     last: Option<(i64, Vec<f64>, i64)>,
     /// Slopes that lead past every sample since the last turn.
@@ -54,10 +50,8 @@ impl Track {
     pub(super) fn new(names: Vec<String>) -> Self {
         let slopes = vec![(f64::NEG_INFINITY, f64::INFINITY); names.len()];
         Self {
+            line: Line::new(names.len()),
             names,
-            stamps_ns: Vec::new(),
-            positions: Vec::new(),
-            gaps_ns: Vec::new(),
             last: None,
             slopes,
             tolerance: TOLERANCE,
@@ -101,9 +95,8 @@ impl Track {
 
     /// First and last stamp, nanoseconds.
     pub(super) fn span_ns(&self) -> Option<(i64, i64)> {
-        let last =
-            self.last.as_ref().map(|(stamp, ..)| *stamp).or(self.stamps_ns.last().copied())?;
-        Some((self.stamps_ns.first().copied()?, last))
+        let last = self.last.as_ref().map(|(stamp, ..)| *stamp).or(self.line.last_ns())?;
+        Some((self.line.first_ns()?, last))
     }
 
     /// Adds a sample of as many positions as there are names.
@@ -119,7 +112,7 @@ impl Track {
             Some((_, last)) => self.extend(stamp_ns, positions, stamp_ns.saturating_sub(last)),
             None => self.turn(stamp_ns, positions, 0),
         }
-        if self.is_larger_than(MOST_TURNS, MOST_POSITIONS) {
+        if self.line.is_larger_than(MOST_TURNS, MOST_POSITIONS) {
             self.shrink();
         }
     }
@@ -154,20 +147,16 @@ impl Track {
     /// samples are up to `gap_ns` apart on that way. Where it is not, a gap stands alone, so that
     /// nothing is taken for unknown that is not.
     fn is_known(&self, positions: &[f64], gap_ns: i64) -> bool {
-        let start = self.at_turn(self.stamps_ns.len().saturating_sub(1));
-        let steps = start.iter().zip(positions).map(|(a, b)| (a - b).abs());
+        let steps = self.line.end().iter().zip(positions).map(|(a, b)| (a - b).abs());
         gap_ns <= DENSE_NS || (gap_ns <= SPARSE_NS && steps.fold(0.0, f64::max) <= STILL)
     }
 
     /// Narrows the slopes by a sample; whether any are left.
     fn passes(&mut self, stamp_ns: i64, positions: &[f64]) -> bool {
-        let count = self.names.len();
-        let Some(start_ns) = self.stamps_ns.last() else { return false };
-        let start = self.positions.len().saturating_sub(count);
-        let start = self.positions.get(start..).unwrap_or_default();
-        let time = stamp_ns.saturating_sub(*start_ns) as f64;
+        let Some(start_ns) = self.line.last_ns() else { return false };
+        let time = stamp_ns.saturating_sub(start_ns) as f64;
         let mut possible = true;
-        for ((slopes, from), to) in self.slopes.iter_mut().zip(start).zip(positions) {
+        for ((slopes, from), to) in self.slopes.iter_mut().zip(self.line.end()).zip(positions) {
             let rise = to - from;
             slopes.0 = slopes.0.max((rise - self.tolerance) / time);
             slopes.1 = slopes.1.min((rise + self.tolerance) / time);
@@ -177,14 +166,8 @@ impl Track {
     }
 
     fn turn(&mut self, stamp_ns: i64, positions: &[f64], gap_ns: i64) {
-        self.stamps_ns.push(stamp_ns);
-        self.positions.extend_from_slice(positions);
-        self.gaps_ns.push(gap_ns);
+        self.line.push(stamp_ns, positions, gap_ns);
         self.slopes.fill((f64::NEG_INFINITY, f64::INFINITY));
-    }
-
-    fn is_larger_than(&self, turns: usize, positions: usize) -> bool {
-        self.stamps_ns.len() > turns || self.positions.len() > positions
     }
 
     /// Halves the line at least, so that a sample seldom makes this necessary, however many come.
@@ -196,23 +179,22 @@ impl Track {
                 break self.thinner();
             }
             let coarser = self.coarser(tolerance);
-            if !coarser.is_larger_than(MOST_TURNS / 2, MOST_POSITIONS / 2) {
+            if !coarser.line.is_larger_than(MOST_TURNS / 2, MOST_POSITIONS / 2) {
                 break coarser;
             }
             tolerance *= 2.0;
             #[cfg(test)]
             {
-                self.gone_through += self.stamps_ns.len();
+                self.gone_through += self.line.turns();
             }
         };
-        let (end_ns, kept_end_ns) =
-            (self.stamps_ns.last().copied(), smaller.stamps_ns.last().copied());
+        let (end_ns, kept_end_ns) = (self.line.last_ns(), smaller.line.last_ns());
         *self = Self {
             count: self.count,
             backward: self.backward,
             first_backward_ns: self.first_backward_ns,
             #[cfg(test)]
-            gone_through: self.gone_through + self.stamps_ns.len(),
+            gone_through: self.gone_through + self.line.turns(),
             ..smaller
         };
         if let Some((stamp, positions, gap)) = last {
@@ -227,10 +209,10 @@ impl Track {
     fn coarser(&self, tolerance: f64) -> Self {
         let thinned = self.thinned;
         let mut coarse = Self { tolerance, thinned, ..Self::new(self.names.clone()) };
-        for (index, (stamp, gap)) in self.stamps_ns.iter().zip(&self.gaps_ns).enumerate() {
-            match coarse.stamps_ns.is_empty() {
-                true => coarse.turn(*stamp, self.at_turn(index), 0),
-                false => coarse.extend(*stamp, self.at_turn(index), *gap),
+        for (stamp_ns, positions, gap_ns) in self.line.iter() {
+            match coarse.line.turns() {
+                0 => coarse.turn(stamp_ns, positions, 0),
+                _ => coarse.extend(stamp_ns, positions, gap_ns),
             }
         }
         coarse.finish();
@@ -241,40 +223,26 @@ impl Track {
     fn thinner(&self) -> Self {
         let (tolerance, thinned) = (self.tolerance, self.thinned.saturating_add(1));
         let mut thin = Self { tolerance, thinned, ..Self::new(self.names.clone()) };
-        for (index, stamp) in self.stamps_ns.iter().enumerate().step_by(2) {
-            let before = thin.stamps_ns.last().map_or(*stamp, |before| *before);
-            thin.turn(*stamp, self.at_turn(index), stamp.saturating_sub(before));
+        for (stamp_ns, positions, _) in self.line.iter().step_by(2) {
+            let before_ns = thin.line.last_ns().unwrap_or(stamp_ns);
+            thin.turn(stamp_ns, positions, stamp_ns.saturating_sub(before_ns));
         }
         thin
     }
 
-    fn at_turn(&self, index: usize) -> &[f64] {
-        let count = self.names.len();
-        self.positions.get(index * count..(index + 1) * count).unwrap_or_default()
-    }
-
     /// The part of the line that `stamp_ns` lies on; `None` before its beginning and after its end.
     pub(super) fn piece(&self, stamp_ns: i64) -> Option<Piece<'_>> {
-        let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
-        let end_ns = *self.stamps_ns.get(after)?;
-        // At a turn, the line is a point.
-        let before = if end_ns == stamp_ns { after } else { after.checked_sub(1)? };
-        Some(Piece {
-            start_ns: *self.stamps_ns.get(before)?,
-            end_ns,
-            gap_ns: if before == after { 0 } else { *self.gaps_ns.get(after)? },
-            start: self.at_turn(before),
-            end: self.at_turn(after),
-        })
+        self.line.piece(stamp_ns)
     }
 
     /// The sample nearest to `stamp_ns` that the line turns at: its stamp and positions.
     pub(super) fn nearest(&self, stamp_ns: i64) -> Option<(i64, &[f64])> {
-        let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
-        let candidates = [after.checked_sub(1), Some(after)].into_iter().flatten();
-        candidates
-            .filter_map(|index| Some((*self.stamps_ns.get(index)?, self.at_turn(index))))
-            .min_by_key(|(stamp, _)| stamp.abs_diff(stamp_ns))
+        self.line.nearest(stamp_ns)
+    }
+
+    /// The turn before `stamp_ns`, else the first one: what was told last.
+    pub(super) fn held(&self, stamp_ns: i64) -> Vec<f64> {
+        self.line.held(stamp_ns)
     }
 
     /// Whether its samples are mostly further apart than `dense_ns`.
@@ -282,12 +250,6 @@ impl Track {
         let span_ns = self.span_ns().map_or(0, |(first, last)| last.saturating_sub(first));
         // One sample more than there are steps between them.
         span_ns as f64 >= dense_ns as f64 * self.count.saturating_sub(2) as f64
-    }
-
-    /// The turn before `stamp_ns`, else the first one: what was told last.
-    pub(super) fn held(&self, stamp_ns: i64) -> Vec<f64> {
-        let after = self.stamps_ns.partition_point(|stamp| *stamp <= stamp_ns);
-        self.at_turn(after.saturating_sub(1)).to_vec()
     }
 
     /// How far the one of `joints` that moves most is seen to move between two times, radians or
@@ -313,9 +275,7 @@ impl Track {
                 see(&piece.at(stamp));
             }
         }
-        let start = self.stamps_ns.partition_point(|stamp| *stamp < from_ns);
-        let end = self.stamps_ns.partition_point(|stamp| *stamp <= to_ns);
-        (start..end).for_each(|index| see(self.at_turn(index)));
+        self.line.within(from_ns, to_ns).for_each(see);
         let moved = joints.iter().filter_map(|joint| Some((*joint, ranges.get(*joint)?)));
         moved.fold((0.0, 0), |most, (joint, (low, high))| match high - low > most.0 {
             true => (high - low, joint),

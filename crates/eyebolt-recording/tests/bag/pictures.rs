@@ -2,7 +2,8 @@
 
 use super::sample::{Bag, DEPTH_TOPIC, FRAME, IMAGE, MS, PIXELS, SIZE, START_NS, assert_says};
 use super::writer;
-use eyebolt_recording::FrameSource;
+use eyebolt_recording::{FrameSource, Recording, WriteRobot, write_folder};
+use std::ops::ControlFlow;
 
 /// Replaces every depth image.
 fn with_depth(encoding: &str, data: &[u8]) -> Bag {
@@ -58,6 +59,25 @@ fn compressed_depth_is_read() {
     assert_eq!(read.frame_names(), Bag::sample().open().frame_names());
     // Its intrinsics are beside the picture that was compressed.
     assert_eq!(read.role("intrinsics").as_deref(), Some("/camera/depth/camera_info"));
+}
+
+/// Of its size only the reading tells, once a topic is named.
+#[test]
+fn a_picture_that_does_not_fit_does_not_stop_a_copy_of_a_damaged_bag() {
+    let mut bag = Bag::sample();
+    bag.add("/color", IMAGE, START_NS, writer::image(START_NS, FRAME, "rgb8", (2, 2), &[9; 12]));
+    bag.options.color_topic = Some("/color".to_owned());
+    for partial in [false, true] {
+        bag.options.partial = partial;
+        let (folder, path) = bag.write();
+        let recording = Recording::open(&path, &bag.options).unwrap();
+        assert_says(recording.read_color(0), &["/color", "the picture is 2 x 2, the camera 4 x 3"]);
+        let go_on = &mut |_, _| ControlFlow::Continue(());
+        let files = folder.path().join("files");
+        std::fs::create_dir(&files).unwrap();
+        let written = write_folder(&recording, &WriteRobot::default(), &files, go_on);
+        assert_eq!(written.is_ok(), partial);
+    }
 }
 
 fn masks(encoding: &str, size: (u32, u32), data: &[u8]) -> Bag {

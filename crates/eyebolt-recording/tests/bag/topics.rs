@@ -122,6 +122,9 @@ fn both_parents_of_a_frame_are_told() {
         let data = writer::static_transform(parent, "camera_optical");
         bag.add("/robot1/tf_static", "tf2_msgs/TFMessage", START_NS + time, data);
     }
+    // Another topic, whose name only ends in the same letters.
+    let data = writer::static_transform("moving", "camera_optical");
+    bag.add("/not_tf_static", "tf2_msgs/TFMessage", START_NS, data);
     let parents: Vec<_> = bag.open().static_transforms().into_iter().map(|t| t.parent).collect();
     assert_eq!(parents, ["camera_link", "world"]);
 }

@@ -15,7 +15,7 @@ fn hours_at_rest_take_no_memory() {
     let noise = |i: i64| 0.9 * TOLERANCE * if i % 3 == 0 { 1.0 } else { -0.1 };
     let samples: Vec<_> = (0..100_000).map(|i| (i * MS, 0.5 + noise(i))).collect();
     let track = track(&samples);
-    assert!(track.stamps_ns.len() < 10, "{} turns", track.stamps_ns.len());
+    assert!(track.line.turns() < 10, "{} turns", track.line.turns());
     assert_eq!(track.count(), 100_000);
 }
 
@@ -27,7 +27,7 @@ fn long(position: impl Fn(f64) -> [f64; 7]) -> Track {
     (0..LONG).for_each(|i| track.push(100 * MS * i, &position(0.1 * i as f64)));
     track.finish();
     assert_eq!(track.count() as i64, LONG);
-    assert!(!track.is_larger_than(MOST_TURNS + 1, MOST_POSITIONS + 7));
+    assert!(!track.line.is_larger_than(MOST_TURNS + 1, MOST_POSITIONS + 7));
     track
 }
 
@@ -35,7 +35,7 @@ fn long(position: impl Fn(f64) -> [f64; 7]) -> Track {
 fn hours_of_seldom_samples_at_rest_take_no_memory_either() {
     let noise = |seconds: f64, joint: usize| 0.4e-4 * (seconds * (7.0 + joint as f64)).sin();
     let track = long(|seconds| std::array::from_fn(|joint| 0.5 + noise(seconds, joint)));
-    assert!(track.stamps_ns.len() < 10, "{} turns", track.stamps_ns.len());
+    assert!(track.line.turns() < 10, "{} turns", track.line.turns());
     assert_eq!((track.gone_through, track.thinning()), (0, 1));
     // Three times in two seconds, and around the bounds of what is dense.
     for steps in [[700, 600], [190, 210], [1400, 1500]] {
@@ -45,7 +45,7 @@ fn hours_of_seldom_samples_at_rest_take_no_memory_either() {
             stamp += MS * steps[i % 2];
         }
         track.finish();
-        assert!(track.stamps_ns.len() < 10, "{} turns of {steps:?}", track.stamps_ns.len());
+        assert!(track.line.turns() < 10, "{} turns of {steps:?}", track.line.turns());
         assert!(track.piece(stamp / 2).unwrap().gap_ns <= SPARSE_NS);
     }
 }
@@ -63,7 +63,7 @@ fn hours_of_seldom_samples_and_some_motion_take_little() {
     };
     let track = long(at);
     // No more than the samples in motion.
-    assert!(track.stamps_ns.len() < 600 * 32, "{} turns", track.stamps_ns.len());
+    assert!(track.line.turns() < 600 * 32, "{} turns", track.line.turns());
     assert_eq!((track.gone_through, track.tolerance()), (0, TOLERANCE));
     for minute in [0.0, 17.0, 599.0] {
         let at_rest = track.piece((60e9 * minute + 30e9) as i64).unwrap();
@@ -84,7 +84,7 @@ fn motion_that_no_line_follows_is_thinned() {
     let count = 4 * MOST_TURNS as i64;
     (0..count).for_each(|i| track.push(10 * MS * i, &[next()]));
     track.finish();
-    assert!(track.stamps_ns.len() <= MOST_TURNS + 1);
+    assert!(track.line.turns() <= MOST_TURNS + 1);
     assert_eq!(track.tolerance(), TOLERANCE);
     assert!(track.thinning() > 1 && track.gone_through < 20 * count as usize);
     // What was forgotten is a gap.
@@ -100,7 +100,7 @@ fn a_line_that_turns_too_often_is_made_coarser() {
         (0..2 * MOST_TURNS as i64).map(|i| (i * MS, if i % 2 == 0 { 1e-3 } else { 0.0 })).collect();
     let track = track(&samples);
     assert!(track.tolerance() > TOLERANCE && track.tolerance() < 1e-2 && track.thinning() == 1);
-    assert!(track.stamps_ns.len() <= MOST_TURNS && track.gone_through < 20 * samples.len());
+    assert!(track.line.turns() <= MOST_TURNS && track.gone_through < 20 * samples.len());
 }
 
 #[test]
@@ -177,9 +177,9 @@ proptest! {
         let mut coarse = Track::new(vec!["j".to_owned()]);
         samples.iter().for_each(|(stamp, position)| coarse.push(*stamp, &[*position]));
         coarse.finish();
-        let before = coarse.stamps_ns.len();
+        let before = coarse.line.turns();
         (0..4).for_each(|_| coarse = coarse.coarser(2.0 * coarse.tolerance));
-        prop_assert!(coarse.stamps_ns.len() <= before + 1);
+        prop_assert!(coarse.line.turns() <= before + 1);
         prop_assert_eq!(coarse.span_ns(), Some((0, samples.last().unwrap().0)));
         for (stamp, position) in samples {
             let on_line = coarse.piece(stamp).unwrap().at(stamp)[0];
