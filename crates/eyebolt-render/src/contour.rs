@@ -49,7 +49,8 @@ pub fn outer_contour(raster: &Raster, camera: &PinholeCamera) -> Vec<ContourPoin
             let bordering = block.iter().zip(sides).zip(rest).fold(
                 false,
                 |found, ((here, (left, right)), (above, below))| {
-                    let empty = (*left == 0.0) | (*right == 0.0) | (*above == 0.0) | (*below == 0.0);
+                    let empty =
+                        (*left == 0.0) | (*right == 0.0) | (*above == 0.0) | (*below == 0.0);
                     found | ((*here != 0.0) & empty)
                 },
             );

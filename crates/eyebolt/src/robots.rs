@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// A robot that comes with the program: all shapes are in its URDF, no file is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltIn {
-    /// What it is called on the command line.
+    /// What it is called.
     pub name: &'static str,
     /// Its description.
     pub urdf: &'static str,

@@ -3,7 +3,6 @@
 use super::sample::{Bag, DEPTH_TOPIC, FRAME, IMAGE, MS, PIXELS, SIZE, START_NS, assert_says};
 use super::writer;
 use eyebolt_recording::{FrameSource, Recording, WriteRobot, write_folder};
-use std::ops::ControlFlow;
 
 /// Replaces every depth image.
 fn with_depth(encoding: &str, data: &[u8]) -> Bag {
@@ -72,7 +71,7 @@ fn a_picture_that_does_not_fit_does_not_stop_a_copy_of_a_damaged_bag() {
         let (folder, path) = bag.write();
         let recording = Recording::open(&path, &bag.options).unwrap();
         assert_says(recording.read_color(0), &["/color", "the picture is 2 x 2, the camera 4 x 3"]);
-        let go_on = &mut |_, _| ControlFlow::Continue(());
+        let go_on = &();
         let files = folder.path().join("files");
         std::fs::create_dir(&files).unwrap();
         let written = write_folder(&recording, &WriteRobot::default(), &files, go_on);

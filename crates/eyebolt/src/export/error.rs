@@ -1,7 +1,7 @@
 //! What can be wrong with an export.
 
 use super::frame_name::{BadFrameName, FrameName};
-use eyebolt_robot::RobotError;
+use eyebolt_robot::{Input, RobotError};
 use std::io;
 
 /// Why a calibration cannot be exported. The text names the remedy, and the file and field where
@@ -37,8 +37,9 @@ pub enum ExportError {
     Robot(#[from] RobotError),
     /// The calibration was refused when it was made.
     #[error(
-        "{file}: verdict: refused: {reasons}. Remove the cause and calibrate again, or give \
-         --even-if-refused to export a pose that is not to be trusted"
+        "{file}: verdict: refused: {reasons}. Remove the cause and calibrate again, or give {} to \
+         export a pose that is not to be trusted",
+        Input::EVEN_IF_REFUSED
     )]
     Refused {
         /// The calibration file.
@@ -60,7 +61,8 @@ pub enum ExportError {
     /// The recording did not say what the depth optical frame is called.
     #[error(
         "{file}: frames.camera: the calibration does not say what the depth optical frame is \
-         called. Give its name: --optical-frame NAME, the frame_id of the camera's camera_info"
+         called. Give its name with {}: the frame_id of the camera's camera_info",
+        Input::OPTICAL_FRAME
     )]
     UnnamedCamera {
         /// The calibration file.
@@ -69,7 +71,8 @@ pub enum ExportError {
     /// A frame was asked for that is nowhere.
     #[error(
         "no frame is called {wanted}; the frames are {known}. Name one of these, or give the static \
-         transforms that lead to it: --camera-tree FILE"
+         transforms that lead to it with {}",
+        Input::CAMERA_TREE
     )]
     UnknownFrame {
         /// The frame asked for.
@@ -80,7 +83,8 @@ pub enum ExportError {
     /// No chain of static transforms leads from one frame to the other.
     #[error(
         "no static transforms lead from {parent} to {child}: {parent} is connected to {reached}; it \
-         is not connected to {apart}. Give the static transforms in between: --camera-tree FILE"
+         is not connected to {apart}. Give the static transforms in between with {}",
+        Input::CAMERA_TREE
     )]
     Unconnected {
         /// The parent asked for.
@@ -116,6 +120,22 @@ pub enum ExportError {
 }
 
 impl ExportError {
+    /// The input that is at fault, or that would help.
+    pub fn input(&self) -> Option<Input> {
+        match self {
+            Self::Robot(error) => error.input(),
+            Self::Refused { .. } => Some(Input::EVEN_IF_REFUSED),
+            Self::UnnamedCamera { .. } => Some(Input::OPTICAL_FRAME),
+            Self::UnknownFrame { .. } | Self::Unconnected { .. } => Some(Input::CAMERA_TREE),
+            _ => None,
+        }
+    }
+
+    /// A name that is none, in `field` of `file`.
+    pub(super) fn bad_name(file: &str, field: impl Into<String>, bad: &BadFrameName) -> Self {
+        Self::invalid(file, field, bad.found(), BadFrameName::REMEDY)
+    }
+
     pub(super) fn invalid(
         file: &str,
         field: impl Into<String>,

@@ -1,6 +1,5 @@
 //! Names of frames that every format can carry.
 
-use super::error::ExportError;
 use eyebolt_geometry::Frame;
 use std::fmt;
 
@@ -19,17 +18,19 @@ pub struct FrameName(String);
 
 /// A name that is none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("frame name {name:?}: {problem}. Rename the frame where it is published")]
+#[error("{}. {}", self.found(), Self::REMEDY)]
 pub struct BadFrameName {
     name: String,
     problem: &'static str,
 }
 
 impl BadFrameName {
-    /// The same, of a name that stands in `field` of `file`.
-    pub(super) fn in_field(self, file: &str, field: impl Into<String>) -> ExportError {
-        let problem = format!("frame name {:?}: {}", self.name, self.problem);
-        ExportError::invalid(file, field, problem, "Rename the frame where it is published")
+    /// What to do about it.
+    pub(super) const REMEDY: &str = "Rename the frame where it is published";
+
+    /// The name and what is wrong with it.
+    pub(super) fn found(&self) -> String {
+        format!("frame name {:?}: {}", self.name, self.problem)
     }
 }
 

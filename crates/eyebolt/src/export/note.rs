@@ -1,6 +1,7 @@
 //! What a person should know before using an export.
 
 use super::frame_name::FrameName;
+use eyebolt_robot::Input;
 use std::fmt;
 
 /// What a person should know before using an export.
@@ -63,7 +64,8 @@ impl fmt::Display for Note {
             Self::TreeApart { tree, base, optical, known } => write!(
                 f,
                 "{tree} has neither {base} nor {optical}, so it changes nothing; it has {known}. \
-                 If the depth optical frame is one of these, name it with --optical-frame"
+                 If the depth optical frame is one of these, name it with {}",
+                Input::OPTICAL_FRAME
             ),
         }
     }

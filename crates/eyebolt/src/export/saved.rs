@@ -1,5 +1,6 @@
 //! What a calibration file says, checked.
 
+mod field;
 mod pose;
 
 use super::error::ExportError;
@@ -7,14 +8,13 @@ use super::file::read_text;
 use super::frame_name::FrameName;
 use crate::answer::SCHEMA;
 use eyebolt_geometry::{Base, Camera, Transform};
+use field::{REMEDY, missing};
 use pose::RawPose;
 use serde::Deserialize;
 use std::path::Path;
 
 /// Largest calibration file, bytes: a recording of thousands of frames makes a few MiB.
 pub const MAX_CALIBRATION_BYTES: u64 = 16 << 20;
-
-const REMEDY: &str = "Export the file as `eyebolt calibrate` wrote it";
 
 /// What a calibration file says that other programs need.
 #[derive(Clone, Debug)]
@@ -132,13 +132,9 @@ fn json<'de, T: Deserialize<'de>>(file: &str, text: &'de str) -> Result<T, Expor
     })
 }
 
-fn missing(file: &str, field: &str) -> ExportError {
-    ExportError::invalid(file, field, "the field is missing", REMEDY)
-}
-
 fn frame_name(file: &str, field: &str, name: Option<String>) -> Result<FrameName, ExportError> {
     let name = name.ok_or_else(|| missing(file, field))?;
-    FrameName::new(&name).map_err(|bad| bad.in_field(file, field))
+    FrameName::new(&name).map_err(|bad| ExportError::bad_name(file, field, &bad))
 }
 
 fn refused(

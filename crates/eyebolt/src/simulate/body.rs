@@ -1,6 +1,6 @@
 //! An arm that can be posed, drawn and kept from bumping into things.
 
-use super::SimulateError;
+use super::error::SimulateError;
 use super::scene::TABLE_BELOW_M;
 use super::solids::Solid;
 use crate::record;

@@ -1,7 +1,8 @@
 //! Configurations worth recording: free, in view, turned toward the camera, far from each other.
 
-use super::SimulateError;
 use super::body::ArmBody;
+use super::error::SimulateError;
+use super::rejected::Rejected;
 use crate::record::most_spread;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::Posture;
@@ -9,7 +10,6 @@ use eyebolt_render::{PosedMesh, Random, Raster, RayScene};
 use eyebolt_robot::JointPositions;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
-use std::fmt;
 
 /// An arm at rest.
 #[derive(Clone, Debug)]
@@ -28,36 +28,6 @@ pub(super) struct Onlooker<'a> {
     pub(super) told_m: [f64; 2],
     /// What may stand between it and the arm.
     pub(super) room: &'a RayScene,
-}
-
-/// Why configurations were not fit to be seen, of all that were drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rejected {
-    drawn: u64,
-    out_of_view: u64,
-    bumping: u64,
-    hidden: u64,
-}
-
-impl fmt::Display for Rejected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let share = |count: u64| 100.0 * count as f64 / self.drawn.max(1) as f64;
-        write!(
-            f,
-            "of {} that were drawn at random, the end-effector is out of the camera's view or range in \
-             {:.1} %, the arm touches itself or the table that its base stands on in {:.1} %, and the \
-             end-effector is hidden or turned away in {:.1} %. ",
-            self.drawn,
-            share(self.out_of_view),
-            share(self.bumping),
-            share(self.hidden)
-        )?;
-        f.write_str(if self.bumping > self.hidden && self.bumping * 20 > self.drawn {
-            "See to the limits of the joints in the URDF, and to its --base"
-        } else {
-            "Move the camera (--preset, --distance-m, --azimuth-deg, --elevation-deg)"
-        })
-    }
 }
 
 /// Why one configuration is not fit.

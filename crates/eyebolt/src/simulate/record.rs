@@ -1,8 +1,12 @@
 //! What the camera sees of a plan, as a recording.
 
+use super::choice::Choice;
+use super::error::SimulateError;
 use super::faults::Encoders;
+use super::plan::Plan;
+use super::scenario::Scenario;
 use super::timeline::{Event, Timeline, background_stamp_ns};
-use super::{Choice, Plan, Scenario, SimulateError, Viewpoint};
+use super::viewpoint::Viewpoint;
 use crate::progress::Progress;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError};

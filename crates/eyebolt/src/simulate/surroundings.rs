@@ -1,10 +1,11 @@
 //! Things put where they neither touch the arm nor hide it.
 
 use super::body::ArmBody;
+use super::choice::Choice;
 use super::configurations::Pose;
+use super::scenario::Scenario;
 use super::scene::clutter;
 use super::solids::Solid;
-use super::{Choice, Scenario};
 use eyebolt_geometry::Transform;
 use eyebolt_render::{RayScene, SceneMesh};
 use nalgebra::Point3;

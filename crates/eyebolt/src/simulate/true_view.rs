@@ -1,6 +1,6 @@
 //! What each pixel really sees: labels that nobody has to make.
 
-use super::Plan;
+use super::plan::Plan;
 use eyebolt_render::View;
 
 /// What an ideal camera sees of one configuration, and of what.

@@ -5,6 +5,7 @@ use crate::poses::{config, pose};
 use crate::trees::{ECHO, edge, shifted};
 use eyebolt::export::{ExportError, Named, Note, Placement, SavedCalibration, StaticTree, Wanted};
 use eyebolt_geometry::Transform;
+use eyebolt_robot::Input;
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -89,7 +90,7 @@ fn a_tree_of_other_frames_is_told_of() {
     let placement = find(&tree(&[("d435_link", "d435_optical")]), &Wanted::default()).unwrap();
     let [note] = &placement.notes[..] else { panic!("{:?}", placement.notes) };
     let note = note.to_string();
-    for words in ["tf.yaml has neither base nor eye_optical", "d435_optical", "--optical-frame"] {
+    for words in ["tf.yaml has neither base nor eye_optical", "d435_optical", "`optical_frame`"] {
         assert!(note.contains(words), "{note}");
     }
     let wanted = Wanted { optical: Some("d435_optical"), ..Wanted::default() };
@@ -104,7 +105,7 @@ fn refusal(tree: &StaticTree, wanted: &Wanted<'_>) -> String {
 #[test]
 fn frames_that_are_nowhere_are_answered_with_those_there_are() {
     let error = refusal(&StaticTree::empty(), &pair("base", "camera_link"));
-    for words in ["no frame is called camera_link", "base, eye_optical", "--camera-tree"] {
+    for words in ["no frame is called camera_link", "base, eye_optical", "`camera_tree`"] {
         assert!(error.contains(words), "{error}");
     }
     assert!(refusal(&echo(), &pair("map", "camera_link")).contains("no frame is called map"));
@@ -117,6 +118,8 @@ fn frames_that_are_nowhere_are_answered_with_those_there_are() {
 #[test]
 fn frames_that_nothing_connects_are_told_apart() {
     let apart = tree(&[("map", "odom"), ("camera_link", "eye_optical")]);
+    let error = find(&apart, &pair("map", "camera_link")).unwrap_err();
+    assert_eq!(error.input(), Some(Input::CAMERA_TREE));
     let error = refusal(&apart, &pair("map", "camera_link"));
     for words in [
         "lead from map to camera_link",
@@ -151,8 +154,10 @@ fn names_asked_for_are_checked() {
 #[test]
 fn a_camera_without_a_name_gets_one() {
     let empty = StaticTree::empty();
-    let error = Placement::find(&unnamed(), &empty, &Wanted::default()).unwrap_err().to_string();
-    assert!(error.contains("frames.camera") && error.contains("--optical-frame"), "{error}");
+    let error = Placement::find(&unnamed(), &empty, &Wanted::default()).unwrap_err();
+    assert_eq!(error.input(), Some(Input::OPTICAL_FRAME));
+    let error = error.to_string();
+    assert!(error.contains("frames.camera") && error.contains("`optical_frame`"), "{error}");
     for wanted in [
         Wanted { optical: Some("eye"), ..Wanted::default() },
         Wanted { child: Some("eye"), ..Wanted::default() },

@@ -4,6 +4,7 @@ use crate::json::{calibration, example, parsed};
 use crate::poses::{config, pose};
 use eyebolt::export::SavedCalibration;
 use eyebolt_geometry::Transform;
+use eyebolt_robot::Input;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -135,8 +136,10 @@ fn a_refused_pose_is_exported_only_when_asked_for() {
     json["verdict"] = json!("refused");
     json["reasons"] = json!(["too few configurations", "a rival pose"]);
     let refused = parsed(&json);
-    let error = refused.base_from_camera(false).unwrap_err().to_string();
-    for words in ["verdict: refused", "too few configurations; a rival pose", "--even-if-refused"] {
+    let error = refused.base_from_camera(false).unwrap_err();
+    assert_eq!(error.input(), Some(Input::EVEN_IF_REFUSED));
+    let error = error.to_string();
+    for words in ["verdict: refused", "too few configurations; a rival pose", "`even_if_refused`"] {
         assert!(error.contains(words), "{error}");
     }
     assert!(refused.base_from_camera(true).is_ok());

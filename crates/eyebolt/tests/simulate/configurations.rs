@@ -5,7 +5,7 @@ use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, bytes, planned,
 use eyebolt::simulate::{Scenario, SimulateError, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_render::Sensor;
-use eyebolt_robot::{JointPositions, Prefer, TriangleMesh, link_mesh};
+use eyebolt_robot::{Input, JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::{Point2, Point3};
 use std::sync::LazyLock;
 
@@ -185,7 +185,8 @@ fn a_camera_that_looks_elsewhere_is_an_error_with_a_remedy() {
         Scenario { viewpoint: Viewpoint::Within(ranges), sensor: Sensor::KINECT_V1, ..small() };
     let error = plan(scenario, &CACHE).err().unwrap();
     assert!(matches!(error, SimulateError::Unfit { found: 0, wanted: 2, .. }), "{error}");
-    assert!(error.to_string().contains("--distance-m"), "{error}");
+    assert_eq!(error.input(), Some(Input::PRESET));
+    assert!(error.to_string().contains(&Input::DISTANCE.to_string()), "{error}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, assert_same, planned, small};
 use eyebolt::simulate::{Faults, Scenario, SimulateError, plan};
-use eyebolt_robot::JointPositions;
+use eyebolt_robot::{Input, JointPositions};
 use nalgebra::Vector3;
 use serde_json::json;
 use std::sync::LazyLock;
@@ -95,7 +95,17 @@ fn only_what_is_stated_of_the_intrinsics_is_wrong() {
         let scenario = scenario(Faults { focal_scale, ..Faults::default() });
         let error = plan(scenario, &CACHE).err().unwrap();
         assert!(matches!(error, SimulateError::Intrinsics(_)), "{error}");
+        assert_eq!(error.input(), Some(Input::FOCAL_SCALE));
+        assert!(error.to_string().starts_with("`focal_scale`, `centre`: "), "{error}");
     }
+}
+
+#[test]
+fn a_camera_is_bumped_between_configurations() {
+    let bumped = scenario(Faults { bump: Some([0.05, 0.1]), ..Faults::default() });
+    let error = plan(Scenario { configurations: 1, ..bumped }, &CACHE).err().unwrap();
+    assert_eq!(error.input(), Some(Input::BUMP));
+    assert!(error.to_string().contains(&Input::CONFIGURATIONS.to_string()), "{error}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The pose in a calibration file, which is there in six spellings that must agree.
 
-use super::{REMEDY, missing};
+use super::field::{REMEDY, missing};
 use crate::export::error::ExportError;
 use eyebolt_geometry::{Base, Camera, Frame, Transform};
 use nalgebra::{Matrix4, Vector3};

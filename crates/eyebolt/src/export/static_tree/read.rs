@@ -1,6 +1,7 @@
 //! Static transforms from a file.
 
-use super::{StaticEdge, StaticTree, tf_message};
+use super::tf_message;
+use super::tree::{StaticEdge, StaticTree};
 use crate::export::error::ExportError;
 use crate::export::file::read_text;
 use eyebolt_geometry::Transform;
@@ -60,8 +61,9 @@ impl StaticTree {
                 parent_from_child: Transform::from_isometry(*pose.isometry()),
             })
         });
-        let tree = Self::from_edges(source, edges.collect())?;
-        Ok(Self { moves: robot.joints.iter().any(eyebolt_robot::Joint::moves), ..tree })
+        let mut tree = Self::from_edges(source, edges.collect())?;
+        tree.moves = robot.joints.iter().any(eyebolt_robot::Joint::moves);
+        Ok(tree)
     }
 }
 

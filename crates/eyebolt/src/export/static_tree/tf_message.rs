@@ -1,6 +1,6 @@
 //! Messages of `/tf_static` in text: `tf2_msgs/TFMessage` in YAML, of which JSON is a part.
 
-use super::StaticEdge;
+use super::tree::StaticEdge;
 use crate::export::error::ExportError;
 use crate::export::frame_name::Named;
 use eyebolt_geometry::Transform;

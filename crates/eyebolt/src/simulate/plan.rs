@@ -1,0 +1,78 @@
+//! Where everything of a simulated recording is.
+
+use super::body::ArmBody;
+use super::choice::Choice;
+use super::configurations::{Onlooker, Pose, choose};
+use super::error::SimulateError;
+use super::scenario::Scenario;
+use super::solids::Solid;
+use super::surroundings::in_place;
+use super::{scene, surroundings};
+use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
+use eyebolt_registration::LinkCache;
+use eyebolt_render::{RayScene, SceneMesh};
+use nalgebra::Point3;
+
+/// Where everything is.
+pub struct Plan<'a> {
+    pub(super) scenario: Scenario<'a>,
+    pub(super) body: ArmBody<'a>,
+    /// The true intrinsics.
+    pub(super) camera: PinholeCamera,
+    /// What the recording says they are.
+    pub(super) stated_camera: PinholeCamera,
+    pub(super) base_from_camera: Transform<Base, Camera>,
+    /// Where the camera is after it was bumped, if it is.
+    pub(super) bumped: Option<Transform<Base, Camera>>,
+    pub(super) poses: Vec<Pose>,
+    solids: Vec<Solid>,
+}
+
+/// Decides where everything of `scenario` is; `cache` keeps shapes of links.
+///
+/// # Errors
+///
+/// Shapes that cannot be read, a camera that hardly sees the end-effector, impossible intrinsics.
+pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, SimulateError> {
+    if scenario.faults.bump.is_some() && scenario.configurations < 2 {
+        return Err(SimulateError::BumpOfOne);
+    }
+    let body = ArmBody::new(scenario.arm, cache)?;
+    let camera = scenario.sensor.camera();
+    let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
+    let seed = scenario.seed;
+    let base_from_camera = scenario.viewpoint.base_from_camera(&mut Choice::Viewpoint.of(seed));
+    let bumped = scenario.faults.bumped(&base_from_camera, &mut Choice::Bump.of(seed));
+    let eye = base_from_camera.point(&Point3::origin());
+    let mut solids = scene::room(&mut Choice::Room.of(seed), &eye);
+    let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
+    let onlooker = Onlooker {
+        camera: &camera,
+        camera_from_base: base_from_camera.inverse(),
+        range_m: scenario.sensor.range_m,
+        told_m: [scenario.faults.depth_scale, scenario.faults.depth_offset_m],
+        room: &room,
+    };
+    let random = Choice::Configurations.of(seed);
+    let poses = choose(&body, &onlooker, scenario.configurations, random)?;
+    solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
+    Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })
+}
+
+impl Plan<'_> {
+    /// The true pose of the base link in the camera's optical frame, when the recording begins.
+    pub fn camera_from_base(&self) -> Transform<Camera, Base> {
+        self.base_from_camera.inverse()
+    }
+
+    /// What stands around: the room, then the clutter.
+    pub fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+
+    /// The links of `arm`, then what stands around.
+    pub(super) fn scene(&self, arm: &[SceneMesh<'_>]) -> RayScene {
+        let around = self.solids.iter().map(in_place);
+        RayScene::new(&arm.iter().copied().chain(around).collect::<Vec<_>>())
+    }
+}
