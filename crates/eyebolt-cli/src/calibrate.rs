@@ -169,6 +169,7 @@ fn draw(arguments: &Arguments, recording: &Recording, outcome: &Outcome) -> Vec<
         let index = recording.frame_names().iter().position(|name| name == first)?;
         // A colour image of another camera, or none: the depth image serves as well.
         recording.read_color(index).unwrap_or_else(|error| {
+            let error = names::in_flags(&error.to_string());
             output::complain(&format!("note: {error}; drawn over the depth image instead"));
             None
         })

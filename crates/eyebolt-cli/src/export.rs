@@ -2,6 +2,7 @@
 
 use crate::ending::Ending;
 use crate::inputs::packages;
+use crate::names;
 use crate::output;
 use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -76,7 +77,7 @@ pub struct Arguments {
 
 fn format() -> impl TypedValueParser<Value = Format> {
     let named =
-        |format: &Format| PossibleValue::new(format.name()).help(format.summary().to_owned());
+        |format: &Format| PossibleValue::new(format.name()).help(names::in_flags(format.summary()));
     PossibleValuesParser::new(Format::ALL.iter().map(named)).try_map(|name| {
         Format::ALL.into_iter().find(|format| format.name() == name).ok_or("not a format")
     })
@@ -102,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     };
     let placement = Placement::find(&calibration, &tree, &wanted)?;
     for note in &placement.notes {
-        output::complain(&format!("note: {note}"));
+        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
     }
     let stem = arguments.output.as_ref().and_then(|path| path.file_stem());
     let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());

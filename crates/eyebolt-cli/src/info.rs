@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
                 && !topics.is_empty()
             {
                 drop(waiting);
-                output::say(&table(&topics));
+                output::say(&names::in_flags(&table(&topics)));
             }
             return Err(error);
         }
@@ -56,7 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         info.advice.retain(|line| !line.starts_with(NO_ROBOT));
         info.advice.insert(0, problem);
     }
-    for line in &mut info.advice {
+    // What is damaged and what to do is said in the libraries' words.
+    for line in info.advice.iter_mut().chain(&mut info.damage) {
         *line = names::in_flags(line);
     }
     drop(waiting);
@@ -67,7 +68,13 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
 
 fn lacks_mesh(error: &anyhow::Error) -> bool {
     let mesh = error.downcast_ref::<RobotError>();
-    matches!(mesh, Some(RobotError::Mesh { source: ResolveError::NotFound { .. }, .. }))
+    matches!(
+        mesh,
+        Some(RobotError::Mesh {
+            source: ResolveError::NotFound { .. } | ResolveError::Outside { .. },
+            ..
+        })
+    )
 }
 
 fn text(info: &Info) -> String {

@@ -114,6 +114,9 @@ pub struct RobotArguments {
     /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too
     #[arg(long, value_name = "[NAME=]FOLDER")]
     package_path: Vec<String>,
+    /// Let a robot description that comes from a bag name files outside the package folders
+    #[arg(long)]
+    allow_outside_files: bool,
 }
 
 impl RobotArguments {
@@ -179,7 +182,7 @@ impl RobotArguments {
     }
 
     fn packages(&self) -> PackageRoots {
-        packages(&self.package_path)
+        packages(&self.package_path).with_outside_files(self.allow_outside_files)
     }
 }
 

@@ -157,6 +157,24 @@ impl DistanceField {
         Some(f32::from(step) * self.step_m)
     }
 
+    /// As [`Self::sample`], the distance alone: the same number in less time.
+    #[inline]
+    pub(crate) fn distance(&self, point: &Point3<f32>) -> f32 {
+        let ([i, j, k], [x, y, z], beyond) = self.locate(point);
+        let [nx, ny, _] = self.size;
+        let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
+        let along_x = |dj: usize, dk: usize| {
+            let at = ((k + dk) * ny + (j + dj)) * nx + i;
+            let pair = &self.steps[at..at + 2];
+            mix(f32::from(pair[0]), f32::from(pair[1]), x)
+        };
+        let v0 = mix(along_x(0, 0), along_x(1, 0), y);
+        let v1 = mix(along_x(0, 1), along_x(1, 1), y);
+        let distance = mix(v0, v1, z) * self.step_m;
+        let outside = beyond.norm_squared();
+        if outside > 0.0 { distance + outside.sqrt() } else { distance }
+    }
+
     #[inline]
     fn interpolate(&self, [i, j, k]: [usize; 3], part: [f32; 3], inverse: f32) -> DistanceSample {
         let [nx, ny, _] = self.size;
@@ -252,6 +270,7 @@ mod tests {
             });
             let point = Point3::from(point);
             let all = field.sample(&point);
+            prop_assert_eq!(field.distance(&point), all.distance_m);
             match field.sample_within(&point, limit) {
                 Some(found) => prop_assert_eq!(found, all),
                 None => prop_assert!(all.distance_m > limit),

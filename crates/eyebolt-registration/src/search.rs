@@ -12,7 +12,7 @@ use crate::rotations::spread_rotations;
 use crate::surface_sample::SurfacePoint;
 use crate::view::{Consistency, View};
 use eyebolt_geometry::{Base, Camera, Transform};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 /// One configuration in the search.
@@ -205,7 +205,7 @@ fn polish(
         let pose = base_from_camera.cast::<f32>();
         let rotation = pose.rotation.to_rotation_matrix();
         let pivot = pose.translation.vector;
-        let mut sum = NormalEquations::<6>::default();
+        let mut sum = LowerTriangle::default();
         for problem in problems {
             for point in &problem.arm_points {
                 let turned = rotation * point.coords;
@@ -213,16 +213,47 @@ fn polish(
                 let weight = geman_mcclure(f64::from(sample.distance_m), *scale);
                 let turn = turned.cross(&sample.gradient);
                 let g = sample.gradient;
-                let jacobian = Vector6::new(g.x, g.y, g.z, turn.x, turn.y, turn.z).cast();
+                let jacobian = [g.x, g.y, g.z, turn.x, turn.y, turn.z].map(f64::from);
                 sum.add(&jacobian, f64::from(sample.distance_m), weight);
             }
         }
+        let sum = sum.complete();
         let Some(step) = sum.solve(1e-3) else { break };
         let turn = UnitQuaternion::new(step.fixed_rows::<3>(3).into_owned());
         base_from_camera.rotation = turn * base_from_camera.rotation;
         base_from_camera.translation.vector += step.fixed_rows::<3>(0);
     }
     base_from_camera
+}
+
+/// Normal equations of six unknowns of which half the matrix is summed: this is the hottest loop of
+/// the search.
+#[derive(Default)]
+struct LowerTriangle {
+    columns: [[f64; 6]; 6],
+    gradient: [f64; 6],
+}
+
+impl LowerTriangle {
+    #[inline]
+    fn add(&mut self, jacobian: &[f64; 6], residual: f64, weight: f64) {
+        for (c, column) in self.columns.iter_mut().enumerate() {
+            let scaled = weight * jacobian[c];
+            for (sum, along) in column[c..].iter_mut().zip(&jacobian[c..]) {
+                *sum += scaled * along;
+            }
+        }
+        let slope = weight * residual;
+        for (sum, along) in self.gradient.iter_mut().zip(jacobian) {
+            *sum += slope * along;
+        }
+    }
+
+    fn complete(&self) -> NormalEquations<6> {
+        let entry = |r: usize, c: usize| self.columns[r.min(c)][r.max(c)];
+        let information = Matrix6::from_fn(entry);
+        NormalEquations { information, gradient: self.gradient.into(), weight: 0.0 }
+    }
 }
 
 fn judge(problems: &[Problem<'_>], base_from_camera: Isometry3<f64>) -> Candidate {
@@ -233,8 +264,7 @@ fn judge(problems: &[Problem<'_>], base_from_camera: Isometry3<f64>) -> Candidat
     for problem in problems {
         let mut sum = 0.0;
         for point in &problem.arm_points {
-            let sample = problem.field.sample(&(inward * point));
-            sum += f64::from(sample.distance_m).abs().min(CAP_M);
+            sum += f64::from(problem.field.distance(&(inward * point))).abs().min(CAP_M);
         }
         distance += sum / problem.arm_points.len() as f64;
         let (mut against, mut judged) = (0.0, 1e-9);

@@ -139,9 +139,16 @@ impl Silhouette {
     /// The outline in `labels`. It runs in the middle between the last pixel of the arm and the
     /// first of the background, to half a pixel.
     pub fn new(labels: &Labels) -> Self {
-        let to_arm = labels.distance_where(Label::is_robot);
-        let to_background = labels.distance_to(Label::Background);
-        let to_ignored = labels.distance_to(Label::Ignore);
+        let to = |counts: fn(Label) -> bool| labels.distance_where(counts);
+        let (to_arm, (to_background, to_ignored)) = rayon::join(
+            || to(Label::is_robot),
+            || {
+                rayon::join(
+                    || to(|label| label == Label::Background),
+                    || to(|label| label == Label::Ignore),
+                )
+            },
+        );
         let signed = (0..to_arm.len()).map(|at| {
             let distance = match (to_arm[at], to_background[at]) {
                 (arm, 0.0) => arm - 0.5,

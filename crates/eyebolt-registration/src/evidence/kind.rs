@@ -59,6 +59,9 @@ pub(crate) trait EvidenceKind: Sync {
     /// Standard deviation of the Gaussian prior of the nuisance parameter, whose mean is zero.
     fn nuisance_deviation(&self) -> f64;
 
+    /// Whether the posed arm has to be drawn for it.
+    fn needs_drawing(&self) -> bool;
+
     /// Adds the factors of one view; returns how many samples each stands for.
     fn gather(&self, posed: &PosedView<'_>, factors: &mut Vec<Factor>) -> f64;
 }

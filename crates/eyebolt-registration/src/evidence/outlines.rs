@@ -48,8 +48,13 @@ impl EvidenceKind for Outlines {
         1.0
     }
 
+    fn needs_drawing(&self) -> bool {
+        true
+    }
+
     fn gather(&self, view: &PosedView<'_>, factors: &mut Vec<Factor>) -> f64 {
-        let contour = outer_contour(view.raster, view.camera);
+        let Some(raster) = view.raster else { return 1.0 };
+        let contour = outer_contour(raster, view.camera);
         let stride = contour.len().div_ceil(CONTOUR_POINTS).max(1);
         let looked_at = contour.iter().step_by(stride);
         factors.extend(

@@ -26,8 +26,8 @@ pub(crate) struct PosedView<'a> {
     /// How many pixels each of them stands for.
     pub pixels_per_point: f64,
     pub silhouette: &'a Silhouette,
-    /// The posed arm, drawn.
-    pub raster: &'a Raster,
+    /// The posed arm, drawn; `None` for kinds of evidence that do without.
+    pub raster: Option<&'a Raster>,
 }
 
 impl PosedArm<'_> {

@@ -49,6 +49,10 @@ impl EvidenceKind for Surfaces {
         0.01
     }
 
+    fn needs_drawing(&self) -> bool {
+        false
+    }
+
     fn gather(&self, view: &PosedView<'_>, factors: &mut Vec<Factor>) -> f64 {
         let mut last = 0;
         for point in view.arm_points {

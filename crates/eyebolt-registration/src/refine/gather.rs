@@ -2,7 +2,7 @@
 
 use super::start::RefineView;
 use crate::arm::ArmModel;
-use crate::evidence::{Factor, KINDS, PosedArm, PosedView};
+use crate::evidence::{EvidenceKind, Factor, KINDS, PosedArm, PosedView};
 use crate::robust::median;
 use crate::unknowns::{EVIDENCE_KINDS, State};
 use eyebolt_render::Raster;
@@ -40,21 +40,35 @@ pub(super) fn gather_one(
 ) {
     let camera = view.view.camera;
     let posture = &view.view.posture.moved(arm, &state.joint_offsets);
-    raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
-    let posed = PosedView {
+    let undrawn = PosedView {
         posed: PosedArm { arm, posture, state },
         camera,
         arm_points: &view.arm_points,
         pixels_per_point: view.pixels_per_point,
         silhouette: &view.silhouette,
-        raster,
+        raster: None,
     };
     gathered.points = view.arm_points.len();
-    for (kind, evidence) in KINDS.iter().enumerate() {
-        gathered.factors[kind].clear();
-        gathered.samples[kind] = evidence.gather(&posed, &mut gathered.factors[kind]);
-    }
+    let kinds = gathered.factors.iter_mut().zip(&mut gathered.samples).zip(KINDS);
+    let (drawn, without): (Vec<_>, Vec<_>) = kinds.partition(|(_, kind)| kind.needs_drawing());
+    let gather = |kinds: Vec<Buffers<'_>>, posed: &PosedView<'_>| {
+        for ((factors, samples), kind) in kinds {
+            factors.clear();
+            *samples = kind.gather(posed, factors);
+        }
+    };
+    // Few views and few cores: the halves of a view keep all of them busy to the end.
+    rayon::join(
+        || gather(without, &undrawn),
+        || {
+            raster.draw(camera, &posture.meshes(arm, &state.camera_from_base));
+            gather(drawn, &PosedView { raster: Some(raster), ..undrawn });
+        },
+    );
 }
+
+/// Where one kind of evidence puts its factors, and what they stand for.
+type Buffers<'a> = ((&'a mut Vec<Factor>, &'a mut f64), &'static dyn EvidenceKind);
 
 /// Standard deviation of each kind's residuals that are within twice its robust scale, from their
 /// median size (1.4826 times it, as of a Gaussian).

@@ -28,7 +28,7 @@ pub fn calibrate(
         return Ok(Calibration { configurations, ..Calibration::without_pose(verdict) });
     };
     let refinement = refined.refinement;
-    let mut workspace = Workspace::new(observations, &masks, refined.indices);
+    let mut workspace = Workspace::with(observations, &masks, refined.indices, refined.rasters);
     workspace.measure(&refinement, &mut configurations);
     progress.advance(1, 3)?;
     let error = error::estimate(&mut workspace, &refinement, &refined.seen, jackknife);

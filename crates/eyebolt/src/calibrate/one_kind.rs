@@ -5,6 +5,7 @@ use crate::refine::{Workspace, again};
 use eyebolt_registration::{
     EVIDENCE_KINDS, JointPrior, RefineOptions, RefineView, Refinement, Start, Trust,
 };
+use eyebolt_render::Raster;
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
@@ -14,7 +15,7 @@ const STEPS: usize = 8;
 /// What each kind of evidence that was seen makes of `refinement` alone, with joints as likely to
 /// be off; `None` if there are not two.
 pub(super) fn one_kind_each(
-    work: &Workspace<'_, '_>,
+    work: &mut Workspace<'_, '_>,
     seen: &[RefineView<'_>],
     refinement: &Refinement,
 ) -> Option<Vec<Start>> {
@@ -23,15 +24,18 @@ pub(super) fn one_kind_each(
     if kinds.len() < 2 {
         return None;
     }
-    let (arm, rasters) = (&work.observations.arm, &work.rasters);
-    let alone = |kind: &usize| {
+    let (arm, camera) = (&work.observations.arm, &work.observations.camera);
+    let mut rasters = vec![std::mem::take(&mut work.rasters)];
+    rasters.resize_with(kinds.len(), || seen.iter().map(|_| Raster::new(camera)).collect());
+    // Side by side, since a few views keep no more than a few cores busy.
+    let alone = |(kind, rasters): (&usize, &mut Vec<Raster>)| {
         let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
         let options = RefineOptions { trust: Trust::Only(*kind), joint_prior, ..again(STEPS) };
-        // Side by side, since a few views keep no more than a few cores busy.
-        let rasters = &mut rasters.clone();
         eyebolt_registration::refine(arm, seen, rasters, &refinement.end(), &options).end()
     };
-    Some(kinds.par_iter().map(alone).collect())
+    let ends = kinds.par_iter().zip(&mut rasters).map(alone).collect();
+    work.rasters = rasters.swap_remove(0);
+    Some(ends)
 }
 
 /// Mean square of `deltas` about their mean: of two, half of their difference squared.

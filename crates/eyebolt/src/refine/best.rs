@@ -8,6 +8,7 @@ use crate::pose::Hypothesis;
 use crate::progress::{Cancelled, Progress};
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
 use eyebolt_registration::{Labels, RefineView, Refinement};
+use eyebolt_render::Raster;
 
 /// The best of the hypotheses, refined on every configuration that takes part.
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub struct Refined<'a> {
     pub refinement: Refinement,
     /// Which configurations of the observations it was fitted to.
     pub(crate) indices: Vec<usize>,
+    /// Buffers to draw them in.
+    pub(crate) rasters: Vec<Raster>,
     /// What it saw of each of them.
     pub(crate) seen: Vec<RefineView<'a>>,
     /// Another pose that explained nearly as much before it was refined to its end.
@@ -57,11 +60,12 @@ pub fn refine_best<'a>(
     let misplaced = workspace.find_misplaced(&refinement, &mut configurations);
     if misplaced > 0 && !too_many_misplaced(&configurations) {
         tracing::debug!(misplaced, "refining again without configurations with a misplaced link");
-        workspace = Workspace::new(observations, &masks, taking_part(&configurations));
+        let indices = taking_part(&configurations);
+        workspace = Workspace::with(observations, &masks, indices, workspace.rasters);
         (refinement, seen) = workspace.refine(&refinement.end());
     }
-    let Workspace { indices, .. } = workspace;
-    let refined = Some(Refined { refinement, indices, seen, rival: best.rival });
+    let Workspace { indices, rasters, .. } = workspace;
+    let refined = Some(Refined { refinement, indices, rasters, seen, rival: best.rival });
     Ok(Found { configurations, masks, refined })
 }
 

@@ -54,8 +54,8 @@ pub fn observe_one<'a>(
     let posture = &view.posture.moved(arm, &start.joint_offsets);
     let posed = View { posture, ..*view };
     let labels = labels_at(arm, &posed, rays, raster, &start.camera_from_base);
-    let (arm_points, pixels_per_point) = arm_points(&labels, view, rays, POINTS);
-    let silhouette = Silhouette::new(&labels);
+    let ((arm_points, pixels_per_point), silhouette) =
+        rayon::join(|| arm_points(&labels, view, rays, POINTS), || Silhouette::new(&labels));
     (RefineView { view: *view, arm_points, pixels_per_point, silhouette }, labels)
 }
 

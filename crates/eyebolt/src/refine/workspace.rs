@@ -26,12 +26,23 @@ impl<'a, 'm> Workspace<'a, 'm> {
         masks: &'m [Mask],
         indices: Vec<usize>,
     ) -> Self {
+        Self::with(observations, masks, indices, Vec::new())
+    }
+
+    /// As [`Self::new`], with the buffers of another workspace.
+    pub(crate) fn with(
+        observations: &'a Observations,
+        masks: &'m [Mask],
+        indices: Vec<usize>,
+        mut rasters: Vec<Raster>,
+    ) -> Self {
+        rasters.resize_with(indices.len(), || Raster::new(&observations.camera));
         let view = |index: &usize| observations.view(&observations.configurations[*index]);
         Self {
             observations,
             views: indices.iter().map(view).collect(),
             masks: indices.iter().map(|i| &masks[*i]).collect(),
-            rasters: indices.iter().map(|_| Raster::new(&observations.camera)).collect(),
+            rasters,
             indices,
         }
     }

@@ -2,6 +2,7 @@
 //! that is in the repository, and the truth is known.
 
 mod clouds;
+mod in_memory;
 mod recording;
 mod refusals;
 mod robots;
