@@ -2,7 +2,7 @@
 
 use crate::camera::PinholeCamera;
 use crate::depth_image::DepthImage;
-use crate::frame::Frame;
+use crate::frame::CoordinateFrame;
 use crate::image::{ImageError, check_size};
 use crate::transform::Transform;
 use nalgebra::{Point3, Quaternion, Unit, UnitQuaternion};
@@ -105,7 +105,10 @@ impl Cloud {
 
     /// The same cloud in the frame `To`, on the same grid.
     #[must_use]
-    pub fn transformed<To: Frame, From: Frame>(&self, to_from_cloud: &Transform<To, From>) -> Self {
+    pub fn transformed<To: CoordinateFrame, From: CoordinateFrame>(
+        &self,
+        to_from_cloud: &Transform<To, From>,
+    ) -> Self {
         let matrix = to_from_cloud.rotation().to_rotation_matrix();
         let translation_m = to_from_cloud.translation_m();
         self.mapped(|p| matrix * p + translation_m)

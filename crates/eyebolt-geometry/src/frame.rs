@@ -4,7 +4,7 @@
 //! in the same frame does not compile.
 
 /// A coordinate frame, named by a type.
-pub trait Frame: Copy + Send + Sync + 'static {
+pub trait CoordinateFrame: Copy + Send + Sync + 'static {
     /// What messages call the frame.
     const NAME: &'static str;
 }
@@ -14,7 +14,7 @@ macro_rules! frames {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name;
-        impl Frame for $name {
+        impl CoordinateFrame for $name {
             const NAME: &'static str = $text;
         }
     )*};

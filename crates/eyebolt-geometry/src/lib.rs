@@ -23,7 +23,7 @@ pub use camera::{CameraError, PinholeCamera};
 pub use cloud::{BoundingBox, Cloud, optical_from_body};
 pub use depth_image::DepthImage;
 pub use distortion::Distortion;
-pub use frame::{Base, Camera, EndEffector, Frame, Link};
+pub use frame::{Base, Camera, CoordinateFrame, EndEffector, Link};
 pub use image::ImageError;
 pub use mask::Mask;
 pub use mean::{MeanError, intrinsic_mean_rotation, mean_rotation, mean_transform};

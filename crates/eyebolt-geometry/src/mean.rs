@@ -5,7 +5,7 @@
 //! weighted squared chordal distance and knows no sign; [`intrinsic_mean_rotation`] minimises the
 //! weighted squared angle.
 
-use crate::frame::Frame;
+use crate::frame::CoordinateFrame;
 use crate::tangent::{rotation_exp, rotation_log};
 use crate::transform::Transform;
 use nalgebra::{Matrix4, Quaternion, SymmetricEigen, UnitQuaternion, Vector3};
@@ -117,7 +117,7 @@ pub fn intrinsic_mean_rotation(
 /// # Errors
 ///
 /// As [`mean_rotation`].
-pub fn mean_transform<To: Frame, From: Frame>(
+pub fn mean_transform<To: CoordinateFrame, From: CoordinateFrame>(
     transforms: &[Transform<To, From>],
     weights: Option<&[f64]>,
 ) -> Result<Transform<To, From>, MeanError> {

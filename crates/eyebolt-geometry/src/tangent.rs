@@ -4,7 +4,7 @@
 //! estimation problems", IEEE Transactions on Robotics 30(3), 2014, with their order of a tangent:
 //! translation first, then rotation.
 
-use crate::frame::Frame;
+use crate::frame::CoordinateFrame;
 use crate::transform::Transform;
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
@@ -129,7 +129,7 @@ impl Coefficients {
     }
 }
 
-impl<To: Frame, From: Frame> Transform<To, From> {
+impl<To: CoordinateFrame, From: CoordinateFrame> Transform<To, From> {
     /// Exponential map of SE(3). The caller vouches for the frames.
     pub fn exp(tangent: &Tangent) -> Self {
         let (translation, rotation) = halves(tangent);

@@ -1,6 +1,6 @@
 //! A rigid transform that knows which frames it runs between.
 
-use crate::frame::Frame;
+use crate::frame::CoordinateFrame;
 use nalgebra::{
     Isometry3, Matrix3, Matrix4, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion,
     Vector3,
@@ -25,7 +25,7 @@ pub struct Transform<To, From> {
     frames: PhantomData<fn(From) -> To>,
 }
 
-impl<To: Frame, From: Frame> Transform<To, From> {
+impl<To: CoordinateFrame, From: CoordinateFrame> Transform<To, From> {
     /// The transform whose matrix is `isometry`'s. The caller vouches for the frames.
     pub fn from_isometry(isometry: Isometry3<f64>) -> Self {
         Self { isometry, frames: PhantomData }
@@ -125,7 +125,9 @@ impl<To: Frame, From: Frame> Transform<To, From> {
     }
 }
 
-impl<A: Frame, B: Frame, C: Frame> Mul<Transform<B, C>> for Transform<A, B> {
+impl<A: CoordinateFrame, B: CoordinateFrame, C: CoordinateFrame> Mul<Transform<B, C>>
+    for Transform<A, B>
+{
     type Output = Transform<A, C>;
 
     fn mul(self, other: Transform<B, C>) -> Transform<A, C> {
@@ -148,7 +150,7 @@ impl<To, From> PartialEq for Transform<To, From> {
     }
 }
 
-impl<To: Frame, From: Frame> fmt::Debug for Transform<To, From> {
+impl<To: CoordinateFrame, From: CoordinateFrame> fmt::Debug for Transform<To, From> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let t = self.translation_m();
         let [x, y, z, w] = self.rotation_xyzw();

@@ -22,8 +22,8 @@ use bag_file::{BagFile, LARGEST_CHUNK};
 pub use files::is_bag;
 pub use kind::BagKind;
 pub(crate) use locator::Locator;
-pub(crate) use message::Message;
 #[cfg(test)]
-use message::Place;
+use message::Location;
+pub(crate) use message::Message;
 pub(crate) use open::Bag;
 pub(crate) use topic::{Encoding, Topic};

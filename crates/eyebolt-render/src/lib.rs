@@ -20,4 +20,4 @@ pub use sensor::{
     AxialNoise, Exposure, Family, IntrinsicsError, LateralNoise, Mode, Sensor, Specimen,
     TimeOfFlight, Triangulation, UnknownSensor, Window,
 };
-pub use view::View;
+pub use view::IdealView;

@@ -7,7 +7,7 @@
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::observations::{Background, ImageSource, Observations};
 use crate::pipeline::{Outcome, Request};
-use eyebolt_geometry::{Distortion, Frame, PinholeCamera, Transform};
+use eyebolt_geometry::{CoordinateFrame, Distortion, PinholeCamera, Transform};
 use eyebolt_recording::Provenance;
 use eyebolt_registration::Refinement;
 use nalgebra::{Matrix6, Point3};
@@ -107,7 +107,7 @@ pub struct Answer {
 /// Names of the frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Frames {
-    /// Frame of the camera as the recording names it; the depth optical frame.
+    /// CoordinateFrame of the camera as the recording names it; the depth optical frame.
     pub camera: Option<String>,
     /// The base link.
     pub base: String,
@@ -329,7 +329,7 @@ fn frames(request: &Request<'_>) -> Frames {
 }
 
 impl Pose {
-    fn new<To: Frame, From: Frame>(pose: &Transform<To, From>) -> Self {
+    fn new<To: CoordinateFrame, From: CoordinateFrame>(pose: &Transform<To, From>) -> Self {
         let matrix = pose.matrix();
         let row = |r: usize| [0, 1, 2, 3].map(|c| matrix[(r, c)]);
         Self {

@@ -5,11 +5,11 @@
 //! an ordinary recording. The truth goes into a record of its own, for [`crate::evaluate`].
 
 mod body;
-mod choice;
 mod configurations;
 mod error;
 mod faults;
 mod plan;
+mod random_stream;
 mod record;
 mod rejected;
 mod scenario;

@@ -48,7 +48,7 @@ pub fn transform() -> impl Strategy<Value = Transform<Camera, Base>> {
 }
 
 /// Largest difference between the entries of the two matrices.
-pub fn difference<A: eyebolt_geometry::Frame, B: eyebolt_geometry::Frame>(
+pub fn difference<A: eyebolt_geometry::CoordinateFrame, B: eyebolt_geometry::CoordinateFrame>(
     a: &Transform<A, B>,
     b: &Transform<A, B>,
 ) -> f64 {

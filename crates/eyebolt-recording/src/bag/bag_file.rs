@@ -1,6 +1,6 @@
 //! What every kind of file of messages can do.
 
-use super::message::{Message, Place};
+use super::message::{Location, Message};
 use crate::error::RecordingError;
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub(crate) trait BagFile: std::fmt::Debug + Send + Sync {
     }
 
     /// The bytes of the message at `place`, which a scan of this file told.
-    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError>;
+    fn read(&self, place: Location) -> Result<Vec<u8>, RecordingError>;
 }
 
 /// No message, and no chunk of messages, is larger than this when decompressed, bytes: a cloud of

@@ -1,18 +1,18 @@
 //! Where a message of a bag lies.
 
-use super::message::Place;
+use super::message::Location;
 
 /// Where a message lies: which file, and where in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(test, derive(Default))]
 pub(crate) struct Locator {
     file: u32,
-    place: Place,
+    place: Location,
 }
 
 impl Locator {
     /// Of the file with this number.
-    pub(super) fn new(file: u32, place: Place) -> Self {
+    pub(super) fn new(file: u32, place: Location) -> Self {
         Self { file, place }
     }
 
@@ -22,7 +22,7 @@ impl Locator {
     }
 
     /// Where in its file.
-    pub(super) fn place(self) -> Place {
+    pub(super) fn place(self) -> Location {
         self.place
     }
 }

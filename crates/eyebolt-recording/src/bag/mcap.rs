@@ -15,7 +15,7 @@ pub(crate) use framing::MAGIC;
 use super::bag_file::BagFile;
 use super::bytes::Bytes;
 use super::cache::ChunkCache;
-use super::message::{Message, Place};
+use super::message::{Location, Message};
 use crate::error::RecordingError;
 use chunk::Unpacker;
 use fault::{cut_short, damaged};
@@ -54,7 +54,7 @@ impl BagFile for McapFile {
             let damaged = |problem: String| damaged(&self.bytes, head.at, problem);
             if head.opcode != CHUNK {
                 let in_body =
-                    |start, length| Place::Bytes { start: head.at + FRAMING + start, length };
+                    |start, length| Location::Bytes { start: head.at + FRAMING + start, length };
                 let visited = topics.record(head.opcode, body, &in_body, each, &damaged);
                 return records::or_damage(visited, *damage.borrow_mut());
             }
@@ -66,7 +66,7 @@ impl BagFile for McapFile {
             for record in chunk::records(records) {
                 let visited = match record {
                     Ok((opcode, start, body)) => {
-                        let place = |behind: u64, length| Place::InChunk {
+                        let place = |behind: u64, length| Location::InChunk {
                             chunk: head.at,
                             start: start + behind as u32,
                             length,
@@ -97,10 +97,10 @@ impl BagFile for McapFile {
         Ok(found)
     }
 
-    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
+    fn read(&self, place: Location) -> Result<Vec<u8>, RecordingError> {
         let damaged = |at, problem| damaged(&self.bytes, at, problem);
         match place {
-            Place::Bytes { start, length } => {
+            Location::Bytes { start, length } => {
                 let mut bytes = Vec::new();
                 let read = self.bytes.reader(start).take(u64::from(length)).read_to_end(&mut bytes);
                 match read.map_err(|cause| self.bytes.unreadable(cause))? == length as usize {
@@ -108,13 +108,13 @@ impl BagFile for McapFile {
                     false => Err(cut_short(&self.bytes, start)),
                 }
             }
-            Place::InChunk { chunk, start, length } => {
+            Location::InChunk { chunk, start, length } => {
                 let records = self.cache.get(chunk, || self.unpacked(chunk))?;
                 let end = (start as usize).saturating_add(length as usize);
                 let message = records.get(start as usize..end).map(<[u8]>::to_vec);
                 message.ok_or_else(|| damaged(chunk, CHANGED))
             }
-            Place::Row(_) => Err(damaged(0, "a row was asked for")),
+            Location::Row(_) => Err(damaged(0, "a row was asked for")),
         }
     }
 }

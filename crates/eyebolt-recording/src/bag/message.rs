@@ -12,14 +12,14 @@ pub(crate) struct Message<'a> {
     /// When it was written down, nanoseconds.
     pub(crate) log_time_ns: i64,
     /// Where to find it again.
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     /// Its bytes, decompressed.
     pub(crate) data: &'a [u8],
 }
 
 /// Where a message lies in its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum Location {
     /// At a byte of the file, not in a chunk.
     Bytes {
         /// The first byte of the message's data, from the beginning of the file.
@@ -41,7 +41,7 @@ pub(crate) enum Place {
 }
 
 #[cfg(test)]
-impl Default for Place {
+impl Default for Location {
     fn default() -> Self {
         Self::Row(0)
     }

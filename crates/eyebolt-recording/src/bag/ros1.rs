@@ -18,7 +18,7 @@ mod tests;
 use super::bag_file::{BagFile, LARGEST_CHUNK};
 use super::bytes::Bytes;
 use super::cache::ChunkCache;
-use super::message::{Message, Place};
+use super::message::{Location, Message};
 use crate::error::RecordingError;
 use chunk::Chunk;
 use fault::{Fault, Taker};
@@ -111,18 +111,18 @@ impl BagFile for Ros1Bag {
         Scan::new(&self.bytes, MAGIC.len() as u64)?.run(&mut Taker { each, damage })
     }
 
-    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
+    fn read(&self, place: Location) -> Result<Vec<u8>, RecordingError> {
         match place {
-            Place::Bytes { start, length } => self
+            Location::Bytes { start, length } => self
                 .read_bytes(start, length)
                 .map_err(|fault| fault.at(self.bytes.path(), format!("message at byte {start}"))),
-            Place::InChunk { chunk, start, length } => {
+            Location::InChunk { chunk, start, length } => {
                 self.read_from_chunk(chunk, start, length).map_err(|fault| {
                     let field = format!("message at byte {start} of the chunk at byte {chunk}");
                     fault.at(self.bytes.path(), field)
                 })
             }
-            Place::Row(row) => Err(RecordingError::invalid(
+            Location::Row(row) => Err(RecordingError::invalid(
                 self.bytes.path(),
                 format!("message of row {row}"),
                 "a bag of ROS 1 has no rows",

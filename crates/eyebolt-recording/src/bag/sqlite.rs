@@ -5,7 +5,7 @@ mod fault;
 mod uri;
 
 use super::bag_file::BagFile;
-use super::message::{Message, Place};
+use super::message::{Location, Message};
 use super::topic::{Encoding, Topic, ros_type};
 use crate::error::RecordingError;
 use connection::{connect, cut_short};
@@ -78,7 +78,7 @@ impl SqliteFile {
         let Some((topic_index, topic)) = index.and_then(|i| Some((i, self.topics.get(i)?))) else {
             return damage(bad_row(&self.path, id, format!("there is no topic {topic_id}")));
         };
-        each(&Message { topic, topic_index, log_time_ns, place: Place::Row(id), data })
+        each(&Message { topic, topic_index, log_time_ns, place: Location::Row(id), data })
     }
 }
 
@@ -114,8 +114,8 @@ impl BagFile for SqliteFile {
         }
     }
 
-    fn read(&self, place: Place) -> Result<Vec<u8>, RecordingError> {
-        let Place::Row(id) = place else {
+    fn read(&self, place: Location) -> Result<Vec<u8>, RecordingError> {
+        let Location::Row(id) = place else {
             return Err(bad_row(&self.path, 0, "a byte was asked for"));
         };
         // A read that panicked has left no statement behind.

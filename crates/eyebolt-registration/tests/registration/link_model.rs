@@ -147,3 +147,30 @@ fn parts_that_run_into_each_other_keep_what_can_be_seen_of_them() {
     let whole = 2.0 * (0.04 * 0.05 + 0.05 * 0.3 + 0.3 * 0.04) + 2.0 * 0.01 + 4.0 * 0.014;
     assert!((drawn - whole).abs() < 1e-4, "{drawn} of {whole}");
 }
+
+#[test]
+fn a_large_link_is_sampled_more_coarsely() {
+    let box_mesh = cuboid([4.9, 4.9, 4.9], [0.0; 3]);
+    let model = LinkModel::build_within(&box_mesh, 60_000);
+    let field = &model.field;
+    let points = field.size().iter().product::<usize>();
+    assert!(points <= 60_000, "{points}");
+    assert!(field.voxel_m() > 0.05);
+    let at = |x: f32| field.sample(&nalgebra::Point3::new(x, 0.3, -0.2)).distance_m;
+    assert!((at(2.5) - 0.05).abs() < 0.01, "{}", at(2.5));
+    assert!(at(2.3) < -0.1, "inside");
+}
+
+#[test]
+fn all_links_of_a_robot_keep_to_one_bound() {
+    let of_an_arm = LinkModel::point_budget(8);
+    assert_eq!(
+        of_an_arm,
+        LinkModel::point_budget(1),
+        "an arm's links are sampled as finely as one"
+    );
+    for links in [17, 100, 255] {
+        let all = links * LinkModel::point_budget(links);
+        assert!(all <= 16 * of_an_arm && all > 15 * of_an_arm, "{links} links: {all}");
+    }
+}

@@ -5,6 +5,7 @@ mod distance_field;
 mod facets;
 mod interpolation;
 mod joint_offsets;
+mod left_out;
 mod link_model;
 mod posture;
 mod refine;

@@ -4,7 +4,7 @@ use super::bvh::LANES;
 use super::packet::{Packet, ROWS};
 use super::scene::RayScene;
 use super::traverse::cast;
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, RayTable, Transform};
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -23,12 +23,20 @@ fn ray(u: usize, v: usize) -> (usize, usize) {
 
 impl RayScene {
     /// What `camera` sees from a pose. Pixels for which the lens has no ray see nothing.
-    pub fn view(&self, camera: &PinholeCamera, base_from_camera: &Transform<Base, Camera>) -> View {
+    pub fn view(
+        &self,
+        camera: &PinholeCamera,
+        base_from_camera: &Transform<Base, Camera>,
+    ) -> IdealView {
         self.view_along(&RayTable::new(camera), base_from_camera)
     }
 
     /// [`Self::view`] along the rays of a camera, which are the same in every frame.
-    pub fn view_along(&self, rays: &RayTable, base_from_camera: &Transform<Base, Camera>) -> View {
+    pub fn view_along(
+        &self,
+        rays: &RayTable,
+        base_from_camera: &Transform<Base, Camera>,
+    ) -> IdealView {
         let (width, height) = (rays.width() as usize, rays.height() as usize);
         let metres = self.metres();
         let mut seen = vec![(0.0, Packet::NOTHING); width * height];
@@ -37,7 +45,7 @@ impl RayScene {
         });
         let facing = |(at, (_, place)): (usize, &(f32, u32))| {
             if *place == Packet::NOTHING {
-                return (View::NOTHING, [0.0; 3]);
+                return (IdealView::NOTHING, [0.0; 3]);
             }
             let normal = base_from_camera.rotation().inverse() * self.normal(*place);
             let [x, y] = rays.rays()[at].map(f64::from);
@@ -47,7 +55,7 @@ impl RayScene {
         };
         let (surface, normal_in_camera) = seen.par_iter().enumerate().map(facing).unzip();
         let depth_m = seen.into_par_iter().map(|(z_m, _)| z_m).collect();
-        View { width, height, depth_m, surface, normal_in_camera }
+        IdealView { width, height, depth_m, surface, normal_in_camera }
     }
 
     /// The depth of [`Self::view_along`] alone, row by row, metres, into `depth_m`, whose memory

@@ -35,7 +35,7 @@ pub struct RayScene {
 
 impl RayScene {
     /// The scene of `meshes`, at most `u16::MAX` of them: those beyond are not seen. Their
-    /// order is what [`View::surface`](crate::View::surface) counts in.
+    /// order is what [`IdealView::surface`](crate::IdealView::surface) counts in.
     pub fn new(meshes: &[SceneMesh<'_>]) -> Self {
         let triangles: Vec<Triangle> = meshes.iter().zip(0..u16::MAX).flat_map(triangles).collect();
         let (centre, units_per_metre) = frame(&triangles);

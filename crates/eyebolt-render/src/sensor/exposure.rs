@@ -3,7 +3,7 @@
 use super::field::Field;
 use super::specimen::Specimen;
 use crate::random::Random;
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::DepthImage;
 use rayon::prelude::*;
 
@@ -80,7 +80,7 @@ struct Noise {
 
 impl Exposure {
     /// Depth without errors but those of `specimen`.
-    pub(super) fn of_depth(view: &View, specimen: &Specimen) -> Self {
+    pub(super) fn of_depth(view: &IdealView, specimen: &Specimen) -> Self {
         let count = view.depth_m.len();
         Self {
             size: [view.width, view.height],

@@ -2,7 +2,7 @@
 
 use super::figures::Triangulation;
 use super::specimen::Specimen;
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::PinholeCamera;
 use nalgebra::{Point2, Vector3};
 use rayon::prelude::*;
@@ -19,7 +19,12 @@ pub struct Geometry {
 
 impl Geometry {
     /// Of `view` of `camera`, whose focal length times baseline is `product`.
-    pub fn new(view: &View, camera: &PinholeCamera, product: f64, specimen: &Specimen) -> Self {
+    pub fn new(
+        view: &IdealView,
+        camera: &PinholeCamera,
+        product: f64,
+        specimen: &Specimen,
+    ) -> Self {
         let disparity = |depth_m: &f32| {
             let depth_m = specimen.depth_m(*depth_m);
             if depth_m > 0.0 { (product / f64::from(depth_m)) as f32 } else { 0.0 }

@@ -5,7 +5,7 @@ use super::model::{Family, Sensor};
 use super::specimen::Specimen;
 use super::{time_of_flight, triangulation};
 use crate::rays::RayScene;
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, RayTable, Transform};
 use nalgebra::Point3;
 
@@ -48,7 +48,7 @@ impl Sensor {
     /// If the three are not of one size.
     pub fn expose(
         &self,
-        view: &View,
+        view: &IdealView,
         camera: &PinholeCamera,
         second_sees: &[bool],
         specimen: &Specimen,

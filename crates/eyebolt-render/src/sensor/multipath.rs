@@ -1,6 +1,6 @@
 //! Light that reaches a time-of-flight camera by a detour.
 
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::{PinholeCamera, RayTable};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ const STRIDE: usize = 4;
 /// detour moves the depth by its share of the signal times half of the detour, one of half a wave
 /// not at all.
 pub fn multipath_m(
-    view: &View,
+    view: &IdealView,
     camera: &PinholeCamera,
     reflectivity: f64,
     wavelength_m: f64,

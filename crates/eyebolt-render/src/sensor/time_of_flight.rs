@@ -5,7 +5,7 @@ use super::field::Layers;
 use super::figures::TimeOfFlight;
 use super::multipath::multipath_m;
 use super::specimen::Specimen;
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::{PinholeCamera, RayTable};
 use rayon::prelude::*;
 
@@ -34,7 +34,7 @@ struct Light {
 /// What `specimen` with `figures` measures of `view` of `camera`.
 pub fn expose(
     figures: &TimeOfFlight,
-    view: &View,
+    view: &IdealView,
     camera: &PinholeCamera,
     specimen: &Specimen,
 ) -> Exposure {
@@ -69,7 +69,7 @@ fn lengthened(z: f32, late_m: f32, specimen: &Specimen) -> f32 {
 }
 
 impl Light {
-    fn new(view: &View, camera: &PinholeCamera) -> Self {
+    fn new(view: &IdealView, camera: &PinholeCamera) -> Self {
         let rays = RayTable::new(camera);
         let signal = |(at, [x, y]): (usize, &[f32; 2])| {
             let (z, [nx, ny, nz]) = (view.depth_m[at], view.normal_in_camera[at]);

@@ -7,7 +7,7 @@ use super::geometry::Geometry;
 use super::laws::{LateralNoise, odds};
 use super::specimen::Specimen;
 use super::window::{APART_PX, Disparities, Neighbour, matches, near_edges, nearest_in_front};
-use crate::view::View;
+use crate::view::IdealView;
 use eyebolt_geometry::PinholeCamera;
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ const ANGLE_SPREAD_RAD: f32 = 0.05;
 /// is in sight of the second lens.
 pub fn expose(
     figures: &Triangulation,
-    view: &View,
+    view: &IdealView,
     camera: &PinholeCamera,
     second_sees: &[bool],
     specimen: &Specimen,

@@ -1,7 +1,7 @@
 use crate::oracle::{facets, wrong};
 use crate::scenes::{camera, config, eye, pose, rotation, scene, soup, sphere, triangles, vector};
 use eyebolt_geometry::{Base, Camera, Distortion, Link, PinholeCamera, RayTable, Transform};
-use eyebolt_render::{PosedMesh, Raster, RayScene, SceneMesh, View};
+use eyebolt_render::{IdealView, PosedMesh, Raster, RayScene, SceneMesh};
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
@@ -34,7 +34,7 @@ proptest! {
         let (facets, origin) = (facets(&meshes), Point3::from(base_from_camera.translation_m()));
         for (at, ray) in rays(&camera, &base_from_camera).enumerate() {
             let (z, surface) = (f64::from(view.depth_m[at]), view.surface[at]);
-            prop_assert_eq!(z > 0.0, surface != View::NOTHING);
+            prop_assert_eq!(z > 0.0, surface != IdealView::NOTHING);
             let Some(ray) = ray else {
                 prop_assert_eq!(z, 0.0);
                 continue;
@@ -54,7 +54,7 @@ proptest! {
         let camera_from_base = base_from_camera.inverse();
         for (at, ray) in rays(&camera, &base_from_camera).enumerate() {
             let normal = Vector3::from(view.normal_in_camera[at]).cast::<f64>();
-            if view.surface[at] == View::NOTHING {
+            if view.surface[at] == IdealView::NOTHING {
                 prop_assert_eq!(normal, Vector3::zeros());
                 continue;
             }
@@ -109,7 +109,7 @@ proptest! {
             let at = v * view.width + u;
             let inside = [at - 1, at + 1, at - view.width, at + view.width];
             if inside.into_iter().all(|other| same(at, other)) {
-                let surface = raster.link(at).map_or(View::NOTHING, u16::from);
+                let surface = raster.link(at).map_or(IdealView::NOTHING, u16::from);
                 prop_assert_eq!(view.surface[at], surface);
                 let z = raster.depth_m(at).unwrap_or(0.0);
                 prop_assert!((view.depth_m[at] - z).abs() <= 1e-4 * z, "{} {z}", view.depth_m[at]);

@@ -1,13 +1,13 @@
 //! Names of frames that every format can carry.
 
-use eyebolt_geometry::Frame;
+use eyebolt_geometry::CoordinateFrame;
 use std::fmt;
 
 /// Any frame of tf, where which one is known from the [`FrameName`] beside the transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Named;
 
-impl Frame for Named {
+impl CoordinateFrame for Named {
     const NAME: &'static str = "named";
 }
 

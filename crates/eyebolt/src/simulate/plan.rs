@@ -1,9 +1,9 @@
 //! Where everything of a simulated recording is.
 
 use super::body::ArmBody;
-use super::choice::Choice;
 use super::configurations::{Onlooker, Pose, choose};
 use super::error::SimulateError;
+use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::solids::Solid;
 use super::surroundings::in_place;
@@ -41,10 +41,11 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
-    let base_from_camera = scenario.viewpoint.base_from_camera(&mut Choice::Viewpoint.of(seed));
-    let bumped = scenario.faults.bumped(&base_from_camera, &mut Choice::Bump.of(seed));
+    let base_from_camera =
+        scenario.viewpoint.base_from_camera(&mut RandomStream::Viewpoint.of(seed));
+    let bumped = scenario.faults.bumped(&base_from_camera, &mut RandomStream::Bump.of(seed));
     let eye = base_from_camera.point(&Point3::origin());
-    let mut solids = scene::room(&mut Choice::Room.of(seed), &eye);
+    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &eye);
     let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
     let onlooker = Onlooker {
         camera: &camera,
@@ -53,7 +54,7 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         told_m: [scenario.faults.depth_scale, scenario.faults.depth_offset_m],
         room: &room,
     };
-    let random = Choice::Configurations.of(seed);
+    let random = RandomStream::Configurations.of(seed);
     let poses = choose(&body, &onlooker, scenario.configurations, random)?;
     solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
     Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })

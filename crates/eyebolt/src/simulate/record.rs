@@ -1,9 +1,9 @@
 //! What the camera sees of a plan, as a recording.
 
-use super::choice::Choice;
 use super::error::SimulateError;
 use super::faults::Encoders;
 use super::plan::Plan;
+use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::viewpoint::Viewpoint;
@@ -62,7 +62,7 @@ impl Plan<'_> {
                 let known = resting.take();
                 let exposure =
                     known.unwrap_or_else(|| self.look(&moment.joints, self.pose_at(index)));
-                let frame = exposure.frame(Choice::Frames.of(scenario.seed).at(done as u64));
+                let frame = exposure.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
                 writer.depth(self.skewed_ns(moment.stamp_ns), &frame)?;
                 resting = at_rest.then_some(exposure);
                 done += 1;
@@ -88,7 +88,7 @@ impl Plan<'_> {
             return Ok(());
         }
         let exposure = self.look_at(&[], &self.base_from_camera);
-        let random = Choice::Frames.of(self.scenario.seed).at(u64::MAX);
+        let random = RandomStream::Frames.of(self.scenario.seed).at(u64::MAX);
         (0..self.scenario.backgrounds).try_for_each(|index| {
             told(index)?;
             writer.background(background_stamp_ns(index), &exposure.frame(random.at(index as u64)))
@@ -114,7 +114,7 @@ impl Plan<'_> {
         let scene = self.scene(arm);
         let faults = &self.scenario.faults;
         let specimen = Specimen {
-            random: Choice::Specimen.of(self.scenario.seed),
+            random: RandomStream::Specimen.of(self.scenario.seed),
             depth_scale: faults.depth_scale,
             depth_offset_m: faults.depth_offset_m,
         };
@@ -139,7 +139,7 @@ impl Plan<'_> {
 
     fn encoders(&self) -> Encoders {
         let Scenario { arm, faults, seed, .. } = &self.scenario;
-        Encoders::new(arm, faults, &mut Choice::Encoders.of(*seed))
+        Encoders::new(arm, faults, &mut RandomStream::Encoders.of(*seed))
     }
 
     /// What a calibration should find when the recording begins: where the camera has the base that

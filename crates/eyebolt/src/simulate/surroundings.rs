@@ -1,8 +1,8 @@
 //! Things put where they neither touch the arm nor hide it.
 
 use super::body::ArmBody;
-use super::choice::Choice;
 use super::configurations::Pose;
+use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::scene::clutter;
 use super::solids::Solid;
@@ -25,7 +25,7 @@ pub(super) fn clutter_about(
     poses: &[Pose],
     eye: &Point3<f64>,
 ) -> Vec<Solid> {
-    let random = Choice::Clutter.of(scenario.seed);
+    let random = RandomStream::Clutter.of(scenario.seed);
     let things = (0..scenario.clutter as u64).into_par_iter().filter_map(|thing| {
         let mut tries = (0..TRIES).map(|place| clutter(&mut random.at(thing).at(place)));
         tries.find(|solid| is_out_of_the_way(solid, body, poses, eye))

@@ -1,13 +1,13 @@
 //! What each pixel really sees: labels that nobody has to make.
 
 use super::plan::Plan;
-use eyebolt_render::View;
+use eyebolt_render::IdealView;
 
 /// What an ideal camera sees of one configuration, and of what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrueView {
     /// Depth, normal and mesh of each pixel.
-    pub view: View,
+    pub view: IdealView,
     /// Of each pixel: [`Self::BACKGROUND`], [`Self::ARM`] or [`Self::END_EFFECTOR`], as in the
     /// paper.
     pub label: Vec<u8>,

@@ -1,7 +1,7 @@
 //! Calibration files, made without the program.
 
 use eyebolt::export::SavedCalibration;
-use eyebolt_geometry::{Base, Camera, Frame, Transform};
+use eyebolt_geometry::{Base, Camera, CoordinateFrame, Transform};
 use serde_json::{Value, json};
 
 /// What `eyebolt calibrate` writes, as far as it matters here; camera `eye_optical`, base `base`.
@@ -19,7 +19,7 @@ pub fn calibration(base_from_camera: &Transform<Base, Camera>) -> Value {
     })
 }
 
-fn pose<A: Frame, B: Frame>(pose: &Transform<A, B>) -> Value {
+fn pose<A: CoordinateFrame, B: CoordinateFrame>(pose: &Transform<A, B>) -> Value {
     let matrix = pose.matrix();
     let rows: Vec<Vec<f64>> = matrix.row_iter().map(|r| r.iter().copied().collect()).collect();
     json!({

@@ -116,3 +116,24 @@ fn a_cloud_and_mask_of_another_size_are_an_error() {
     let error = try_run(folder.path(), WITH_MASKS).err().unwrap().to_string();
     assert!(error.contains("frame 2") && error.contains("mask"), "{error}");
 }
+
+/// Masks belong to pixels, so a grid that tells no camera cannot be used with them, and can without.
+#[test]
+fn masks_on_a_grid_that_is_no_cameras_can_be_done_without() {
+    let (folder, frames) = (folder(), shots());
+    let shape = [CAMERA.height() as usize, CAMERA.width() as usize, 3];
+    let mut random = Random(7);
+    for (index, shot) in frames.iter().enumerate() {
+        let mut points = points(shot);
+        for last in (1..points.len()).rev() {
+            points.swap(last, (random.next() % (last as u64 + 1)) as usize);
+        }
+        write(folder.path(), &format!("xyz_{index}.npy"), &array(&shape, &points));
+    }
+    write_masks(folder.path(), &frames);
+    let range = "cloud = \"xyz_{}.npy\"\ncloud_frame = \"optical\"\nmask = \"mask_{}.png\"";
+    write_rest(folder.path(), &frames, "", range);
+    let error = try_run(folder.path(), WITH_MASKS).err().unwrap();
+    assert_eq!(error.input(), Some(eyebolt_robot::Input::CAMERA_INFO), "{error}");
+    run(folder.path(), WITHOUT_MASKS).assert_trusted(&truth(), (5.0, 0.2));
+}

@@ -2,6 +2,7 @@
 //! that is in the repository, and the truth is known.
 
 mod clouds;
+mod doors;
 mod in_memory;
 mod recording;
 mod refusals;

@@ -3,7 +3,7 @@
 use eyebolt::pipeline::Request;
 use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, Plan, Preset, Scenario, Viewpoint, plan};
-use eyebolt_geometry::{Base, Camera, DepthImage, Frame, Transform};
+use eyebolt_geometry::{Base, Camera, CoordinateFrame, DepthImage, Transform};
 use eyebolt_recording::{BagOptions, Range, Recording, Truth, read_truth};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{Mode, Sensor};
@@ -127,7 +127,10 @@ pub const AS_SAID: f64 = 2.1e-4;
 
 /// Checks that two poses are the same but for the last digits, which another spelling costs.
 #[track_caller]
-pub fn assert_same<To: Frame, From: Frame>(a: &Transform<To, From>, b: &Transform<To, From>) {
+pub fn assert_same<To: CoordinateFrame, From: CoordinateFrame>(
+    a: &Transform<To, From>,
+    b: &Transform<To, From>,
+) {
     let apart = (a.matrix() - b.matrix()).amax();
     assert!(apart < 1e-12, "{apart}: {a:?} {b:?}");
 }

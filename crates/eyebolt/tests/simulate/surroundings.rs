@@ -4,7 +4,7 @@ use crate::shapes;
 use crate::stage::{ARM, Recorded, SENSOR, planned, small};
 use eyebolt::simulate::{Plan, Scenario};
 use eyebolt_geometry::{Base, Camera, Link, Transform};
-use eyebolt_render::{RayScene, SceneMesh, View};
+use eyebolt_render::{IdealView, RayScene, SceneMesh};
 use eyebolt_robot::{JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::Point3;
 
@@ -46,7 +46,7 @@ fn posed<'a>(meshes: &'a [TriangleMesh], joints: &JointPositions) -> Vec<SceneMe
 
 /// Pixels of the arm, and of its hand.
 fn pixels(meshes: &[SceneMesh<'_>], base_from_camera: &Transform<Base, Camera>) -> [usize; 2] {
-    let view: View = RayScene::new(meshes).view(&SENSOR.camera(), base_from_camera);
+    let view: IdealView = RayScene::new(meshes).view(&SENSOR.camera(), base_from_camera);
     let links = ARM.robot().links.len();
     let hand = ARM.end_effector_links();
     let arm = view.surface.iter().map(|surface| usize::from(*surface)).filter(|at| *at < links);

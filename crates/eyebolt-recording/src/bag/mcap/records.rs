@@ -1,7 +1,7 @@
 //! Records of MCAP: what schemas, channels and messages say.
 
 use super::fields::Fields;
-use crate::bag::message::{Message, Place};
+use crate::bag::message::{Location, Message};
 use crate::bag::topic::{Encoding, Topic, ros_type};
 use crate::error::RecordingError;
 use mcap::records::op;
@@ -57,7 +57,7 @@ impl Topics {
         &mut self,
         opcode: u8,
         body: &[u8],
-        place: &dyn Fn(u64, u32) -> Place,
+        place: &dyn Fn(u64, u32) -> Location,
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damaged: &dyn Fn(String) -> RecordingError,
     ) -> Result<(), Stop> {
@@ -78,7 +78,7 @@ impl Topics {
     fn message<'a>(
         &'a self,
         body: &'a [u8],
-        place: &dyn Fn(u64, u32) -> Place,
+        place: &dyn Fn(u64, u32) -> Location,
     ) -> Result<Message<'a>, String> {
         let mut fields = Fields::new(body);
         let channel = fields.u16()?;

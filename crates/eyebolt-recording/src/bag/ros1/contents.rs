@@ -3,7 +3,7 @@
 use super::connections::Connections;
 use super::fault::{Fault, Taker};
 use super::header::{Header, Op, split_sized};
-use crate::bag::message::{Message, Place};
+use crate::bag::message::{Location, Message};
 use crate::error::RecordingError;
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub(super) fn contents(
         // A chunk has far less than 4 GiB, or it was not decompressed.
         let start = u32::try_from(bytes.len() - rest.len() - data.len()).unwrap_or(u32::MAX);
         let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
-        let place = Place::InChunk { chunk, start, length };
+        let place = Location::InChunk { chunk, start, length };
         let taken = Header::parse(header)
             .map_err(Fault::from)
             .and_then(|header| take(header.op()?, header, data, place, connections, taker));
@@ -46,7 +46,7 @@ pub(super) fn take(
     op: Op,
     header: Header<'_>,
     data: &[u8],
-    place: Place,
+    place: Location,
     connections: &mut Connections<'_>,
     taker: &mut Taker<'_>,
 ) -> Result<(), Fault> {

@@ -8,7 +8,7 @@ use super::header::{Header, Op};
 use super::source::{Record, Source};
 use crate::bag::bag_file::LARGEST_CHUNK;
 use crate::bag::bytes::Bytes;
-use crate::bag::message::Place;
+use crate::bag::message::Location;
 use crate::error::RecordingError;
 use std::path::Path;
 
@@ -100,7 +100,7 @@ impl<'b> Scan<'b> {
             return Err(format!("{} bytes are too many for its kind", record.length).into());
         }
         self.source.fill(&mut self.data, u64::from(record.length))?;
-        let place = Place::Bytes { start: record.data, length: record.length };
+        let place = Location::Bytes { start: record.data, length: record.length };
         take(op, header, &self.data, place, &mut self.connections, taker)
     }
 

@@ -1,7 +1,7 @@
 //! MCAP files of others, cut short or with wrong bytes.
 
 use super::support::{Told, assert_says, file, fixture, open, scan, scan_whole, strict};
-use crate::bag::Place;
+use crate::bag::Location;
 use proptest::prelude::*;
 
 const FILES: [&str; 6] =
@@ -23,9 +23,9 @@ fn first(bytes: &[u8], opcode: u8) -> usize {
 /// Behind the last byte of the message's record, or of its chunk's.
 fn end(bytes: &[u8], told: &Told) -> usize {
     let record = match told.locator.place() {
-        Place::Bytes { start, .. } => start as usize - 31,
-        Place::InChunk { chunk, .. } => chunk as usize,
-        Place::Row(_) => unreachable!(),
+        Location::Bytes { start, .. } => start as usize - 31,
+        Location::InChunk { chunk, .. } => chunk as usize,
+        Location::Row(_) => unreachable!(),
     };
     record + 9 + u64::from_le_bytes(bytes[record + 1..record + 9].try_into().unwrap()) as usize
 }

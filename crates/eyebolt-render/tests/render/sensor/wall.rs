@@ -1,7 +1,7 @@
 //! A tilted wall, and what sensors tell of it.
 
 use eyebolt_geometry::{Distortion, PinholeCamera};
-use eyebolt_render::{Exposure, Family, Random, Sensor, Specimen, View};
+use eyebolt_render::{Exposure, Family, IdealView, Random, Sensor, Specimen};
 use nalgebra::{Point2, Vector3};
 
 /// The middle of a sensor's image.
@@ -27,11 +27,11 @@ impl Wall {
         Vector3::new(self.tilt_rad.sin(), 0.0, -self.tilt_rad.cos())
     }
 
-    pub fn view(&self, camera: &PinholeCamera) -> View {
+    pub fn view(&self, camera: &PinholeCamera) -> IdealView {
         let n = self.normal();
         let depth = |ray: Vector3<f64>| n.z * self.z_m / n.dot(&ray);
         let depth_m: Vec<f32> = rays(camera).map(|ray| depth(ray).max(0.0) as f32).collect();
-        View {
+        IdealView {
             width: camera.width() as usize,
             height: camera.height() as usize,
             surface: vec![0; depth_m.len()],

@@ -2,7 +2,7 @@
 
 use super::field::{REMEDY, missing};
 use crate::export::error::ExportError;
-use eyebolt_geometry::{Base, Camera, Frame, Transform};
+use eyebolt_geometry::{Base, Camera, CoordinateFrame, Transform};
 use nalgebra::{Matrix4, Vector3};
 use serde::Deserialize;
 
@@ -41,7 +41,7 @@ pub(super) fn agreed(
     Ok(Some(base_from_camera))
 }
 
-fn alike<A: Frame, B: Frame>(a: &Transform<A, B>, b: &Transform<A, B>) -> bool {
+fn alike<A: CoordinateFrame, B: CoordinateFrame>(a: &Transform<A, B>, b: &Transform<A, B>) -> bool {
     let (distance_m, angle_rad) = a.distance_to(b);
     // An angle from the other frame's origin moves this one's by its distance.
     let reach_m = 1.0 + a.translation_m().norm();
@@ -49,7 +49,7 @@ fn alike<A: Frame, B: Frame>(a: &Transform<A, B>, b: &Transform<A, B>) -> bool {
 }
 
 impl RawPose {
-    fn check<A: Frame, B: Frame>(
+    fn check<A: CoordinateFrame, B: CoordinateFrame>(
         &self,
         file: &str,
         field: &str,

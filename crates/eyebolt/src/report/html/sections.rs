@@ -11,7 +11,7 @@ use crate::answer::Answer;
 use crate::calibrate::Verdict;
 use crate::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
 use crate::pipeline::Outcome;
-use eyebolt_geometry::{Frame, Transform};
+use eyebolt_geometry::{CoordinateFrame, Transform};
 use eyebolt_registration::OUTLINES;
 use eyebolt_robot::Input;
 use minijinja::{Value, context};
@@ -49,7 +49,10 @@ pub(super) fn transforms(outcome: &Outcome) -> Option<Vec<Value>> {
     Some(vec![transform("base_from_camera", &inverse), transform("camera_from_base", &pose)])
 }
 
-fn transform<To: Frame, From: Frame>(name: &str, pose: &Transform<To, From>) -> Value {
+fn transform<To: CoordinateFrame, From: CoordinateFrame>(
+    name: &str,
+    pose: &Transform<To, From>,
+) -> Value {
     let matrix = pose.matrix();
     let row = |r: usize| [0, 1, 2, 3].map(|c| matrix[(r, c)]).to_vec();
     let (roll, pitch, yaw) = pose.rotation().euler_angles();

@@ -6,7 +6,7 @@ mod headers;
 
 use super::support::{bag, file, open, said, scan};
 use super::writer::{MAGIC, bag_header, message, record, true_chunk, unindexed};
-use crate::bag::{BagFile, Place};
+use crate::bag::{BagFile, Location};
 use crate::error::RecordingError;
 use between::camera;
 use std::path::Path;
@@ -97,15 +97,15 @@ fn places_that_no_scan_told_are_errors() {
     let chunk = unindexed(&[camera()]).len() as u64;
     let (_file, bag) = bag(&bytes);
     for place in [
-        Place::Bytes { start: bytes.len() as u64, length: 1 },
-        Place::Bytes { start: 0, length: u32::MAX },
-        Place::Bytes { start: u64::MAX, length: u32::MAX },
-        Place::InChunk { chunk: 0, start: 0, length: 1 },
-        Place::InChunk { chunk: 13, start: 0, length: 1 },
-        Place::InChunk { chunk: u64::MAX, start: 0, length: 1 },
-        Place::InChunk { chunk, start: 0, length: 5000 },
-        Place::InChunk { chunk, start: u32::MAX, length: u32::MAX },
-        Place::Row(1),
+        Location::Bytes { start: bytes.len() as u64, length: 1 },
+        Location::Bytes { start: 0, length: u32::MAX },
+        Location::Bytes { start: u64::MAX, length: u32::MAX },
+        Location::InChunk { chunk: 0, start: 0, length: 1 },
+        Location::InChunk { chunk: 13, start: 0, length: 1 },
+        Location::InChunk { chunk: u64::MAX, start: 0, length: 1 },
+        Location::InChunk { chunk, start: 0, length: 5000 },
+        Location::InChunk { chunk, start: u32::MAX, length: u32::MAX },
+        Location::Row(1),
     ] {
         let error = said(bag.read(place).unwrap_err());
         assert!(error.contains(": message "), "{error}");

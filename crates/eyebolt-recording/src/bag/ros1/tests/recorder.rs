@@ -2,7 +2,7 @@
 
 use super::support::{bag, scan_whole};
 use super::writer::{connection, message, true_chunk, unindexed};
-use crate::bag::{BagFile, Place};
+use crate::bag::{BagFile, Location};
 use proptest::prelude::*;
 
 #[test]
@@ -69,7 +69,7 @@ fn a_chunk_too_large_to_keep_gives_its_messages() {
     let records = [connection(0, "/a", "std_msgs/String"), true_chunk("lz4", &inside)];
     let (_file, bag) = bag(&unindexed(&records));
     let messages = scan_whole(&bag);
-    assert!(messages.iter().all(|m| matches!(m.place, Place::InChunk { .. })));
+    assert!(messages.iter().all(|m| matches!(m.place, Location::InChunk { .. })));
     assert_eq!(bag.read(messages[0].place).unwrap(), b"first");
     assert!(bag.read(messages[1].place).unwrap() == large);
     assert_eq!(bag.read(messages[0].place).unwrap(), b"first");

@@ -1,7 +1,7 @@
 //! Bags of another implementation, and what it reads from them.
 
 use super::support::{Told, bag, file, open, scan, scan_whole};
-use crate::bag::{BagFile, Place};
+use crate::bag::{BagFile, Location};
 use proptest::prelude::*;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -113,7 +113,7 @@ fn index_pos(bytes: &[u8]) -> [u8; 8] {
 fn chunks(messages: &[Told]) -> Vec<usize> {
     let mut starts = Vec::new();
     for message in messages {
-        if let Place::InChunk { chunk, .. } = message.place {
+        if let Location::InChunk { chunk, .. } = message.place {
             starts.push(usize::try_from(chunk).unwrap());
         }
     }
@@ -145,7 +145,7 @@ fn a_corrupt_chunk_costs_its_own_messages_only() {
 }
 
 /// All but the number of the topic, which depends on what came before.
-fn what(message: &Told) -> (&str, i64, Place, &[u8]) {
+fn what(message: &Told) -> (&str, i64, Location, &[u8]) {
     (&message.topic, message.log_time_ns, message.place, &message.data)
 }
 

@@ -3,7 +3,7 @@
 use crate::bag::bag_file::BagFile;
 use crate::bag::bytes::Bytes;
 use crate::bag::ros1::Ros1Bag;
-use crate::bag::{Encoding, Place};
+use crate::bag::{Encoding, Location};
 use crate::error::RecordingError;
 use std::io::Write;
 use std::path::Path;
@@ -16,7 +16,7 @@ pub(super) struct Told {
     pub(super) message_type: String,
     pub(super) topic_index: usize,
     pub(super) log_time_ns: i64,
-    pub(super) place: Place,
+    pub(super) place: Location,
     pub(super) data: Vec<u8>,
 }
 

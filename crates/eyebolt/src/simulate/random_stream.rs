@@ -4,7 +4,7 @@ use eyebolt_render::Random;
 
 /// Which stream of random numbers decides what: what is added later changes nothing else.
 #[derive(Clone, Copy)]
-pub(super) enum Choice {
+pub(super) enum RandomStream {
     Viewpoint = 1,
     Configurations,
     Room,
@@ -15,7 +15,7 @@ pub(super) enum Choice {
     Bump,
 }
 
-impl Choice {
+impl RandomStream {
     pub(super) fn of(self, seed: u64) -> Random {
         Random::new(seed).at(self as u64)
     }
