@@ -3,12 +3,14 @@
 use super::configuration::{ConfigurationOutcome, Dropped, taking_part, too_many_misplaced};
 use super::shortlist;
 use super::workspace::Workspace;
+use crate::evenly::evenly;
 use crate::observations::Observations;
 use crate::pose::Hypothesis;
 use crate::progress::{Cancelled, Progress};
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
 use eyebolt_registration::{Labels, RefineView, Refinement};
 use eyebolt_render::Raster;
+use rayon::prelude::*;
 
 /// The best of the hypotheses, refined on every configuration that takes part.
 #[derive(Debug)]
@@ -36,6 +38,10 @@ pub struct Found<'a> {
     pub refined: Option<Refined<'a>>,
 }
 
+/// Hypotheses are told apart by no more configurations than this, evenly chosen: as many as the global
+/// search looks at.
+const SHORTLIST_CONFIGURATIONS: usize = 8;
+
 /// Refines each of `hypotheses` a little, the best one to its end, and once more without those
 /// configurations in which the camera sees through a link.
 ///
@@ -49,10 +55,15 @@ pub fn refine_best<'a>(
     progress: &dyn Progress,
 ) -> Result<Found<'a>, Cancelled> {
     let (width, height) = (observations.camera.width(), observations.camera.height());
-    let masks: Vec<Mask> = labels.iter().map(|labels| labels.robot_mask(width, height)).collect();
+    let masks: Vec<Mask> =
+        labels.par_iter().map(|labels| labels.robot_mask(width, height)).collect();
     let mut configurations = outcomes(observations, &masks);
     let mut workspace = Workspace::new(observations, &masks, taking_part(&configurations));
-    let Some(best) = shortlist::choose(&mut workspace, hypotheses, progress)? else {
+    let few = evenly(&workspace.indices, SHORTLIST_CONFIGURATIONS);
+    let mut few = Workspace::with(observations, &masks, few, std::mem::take(&mut workspace.rasters));
+    let best = shortlist::choose(&mut few, hypotheses, progress)?;
+    workspace = Workspace::with(observations, &masks, workspace.indices, few.rasters);
+    let Some(best) = best else {
         return Ok(Found { configurations, masks, refined: None });
     };
     progress.advance(1, 2)?;
@@ -74,7 +85,7 @@ const LEAST_ARM_SHARE: f64 = 1e-3;
 
 fn outcomes(observations: &Observations, masks: &[Mask]) -> Vec<ConfigurationOutcome> {
     let least = (LEAST_ARM_SHARE * observations.camera.pixel_count() as f64) as usize;
-    let pairs = observations.configurations.iter().zip(masks);
+    let pairs = observations.configurations.par_iter().zip(masks);
     pairs
         .map(|(configuration, mask)| {
             let depth = configuration.depth.depth_m();
