@@ -46,13 +46,30 @@ impl Envelope {
 
     /// Replaces `f` by `min over q of f(q) + (p - q)^2`.
     fn transform(&mut self, f: &mut [f32]) {
-        self.input.copy_from_slice(f);
+        // Beyond a zero nothing is nearer than the zero itself: what lies between two of them is a
+        // problem of its own, and zeros stay what they are.
+        let mut first = 0;
+        while first < f.len() {
+            if f[first] == 0.0 {
+                first += 1;
+                continue;
+            }
+            let length = f[first..].iter().take_while(|value| **value != 0.0).count();
+            let (from, to) = (first.saturating_sub(1), (first + length + 1).min(f.len()));
+            self.transform_run(&mut f[from..to]);
+            first += length;
+        }
+    }
+
+    fn transform_run(&mut self, f: &mut [f32]) {
+        let input = &mut self.input[..f.len()];
+        input.copy_from_slice(f);
         let mut count = 0usize;
-        for (q, value) in self.input.iter().enumerate() {
+        for (q, value) in input.iter().enumerate() {
             if !value.is_finite() {
                 continue;
             }
-            let height = |at: usize| self.input[at] + (at * at) as f32;
+            let height = |at: usize| input[at] + (at * at) as f32;
             let mut from = f32::NEG_INFINITY;
             while count > 0 {
                 let last = self.vertex[count - 1];
@@ -77,7 +94,7 @@ impl Envelope {
             }
             let q = self.vertex[k];
             let apart = p.abs_diff(q);
-            *out = self.input[q] + (apart * apart) as f32;
+            *out = input[q] + (apart * apart) as f32;
         }
     }
 }

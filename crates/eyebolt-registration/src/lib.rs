@@ -2,6 +2,7 @@
 //! needs no initial guess, and a robust refinement with an outcome.
 
 mod arm;
+mod bit_image;
 mod cache;
 mod decimate;
 mod depth_margin;

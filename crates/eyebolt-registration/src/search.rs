@@ -54,6 +54,8 @@ const POLISHED: usize = 120;
 const POLISH: [f64; 8] = [0.10, 0.08, 0.06, 0.05, 0.04, 0.03, 0.03, 0.03];
 const COARSE_VOXEL_M: f32 = 0.03;
 const COARSE_MARGIN_M: f32 = 0.15;
+/// Farther away, all is as far.
+const LARGEST_M: f32 = 2.0;
 /// Grid points of the coarse field of one configuration; a sliding joint may put links far apart.
 const MOST_COARSE_POINTS: usize = 2_000_000;
 
@@ -133,11 +135,17 @@ fn whole_arm(arm: &ArmModel, posture: &Posture) -> DistanceField {
     let origin = low - Vector3::repeat(COARSE_MARGIN_M);
     let span = high - low + Vector3::repeat(2.0 * COARSE_MARGIN_M);
     let (voxel_m, size) = bounded_grid(&span, COARSE_VOXEL_M, MOST_COARSE_POINTS);
-    let mut last = 0;
-    DistanceField::from_fn(origin, voxel_m, size, 2.0, |p| {
-        let nearest = posture.nearest_within(arm, p, f32::INFINITY, last);
-        last = nearest.map_or(last, |nearest| nearest.link);
-        nearest.map_or(f32::INFINITY, |nearest| nearest.distance_m)
+    // From one grid point to the next the distance grows by no more than their spacing, or little
+    // more: with that as the limit most links are passed over.
+    let (mut link, mut before_m) = (0, f32::INFINITY);
+    DistanceField::from_fn(origin, voxel_m, size, LARGEST_M, |p| {
+        let limit_m = before_m.abs() + 1.5 * voxel_m;
+        let nearest = posture
+            .nearest_within(arm, p, limit_m, link)
+            .or_else(|| posture.nearest_within(arm, p, f32::INFINITY, link));
+        let Some(nearest) = nearest else { return f32::INFINITY };
+        (link, before_m) = (nearest.link, nearest.distance_m);
+        nearest.distance_m
     })
 }
 

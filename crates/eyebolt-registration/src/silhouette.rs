@@ -1,5 +1,6 @@
 //! The arm's outline as the camera saw it.
 
+use crate::bit_image::BitImage;
 use crate::image_distance::distance_to;
 use eyebolt_geometry::Mask;
 use nalgebra::{Point2, Vector2};
@@ -85,10 +86,19 @@ impl Labels {
     /// Pixels of the rectangle that a disc of `radius` pixels covers which holds only `label`:
     /// morphological opening.
     pub fn opened(&self, label: Label, radius: f32) -> Vec<bool> {
-        let inside = self.distance_out_of(label);
-        let core: Vec<bool> = inside.iter().map(|d| *d > radius).collect();
-        let to_core = distance_to(&core, self.columns.len(), self.rows.len());
-        to_core.iter().map(|d| *d <= radius).collect()
+        let rest = self.bits(|other| other != label);
+        rest.dilated(radius).inverted().dilated(radius).to_bools()
+    }
+
+    /// Whether each pixel of the rectangle is no farther than a small `radius`, in pixels, from one
+    /// whose label `counts`.
+    pub fn near(&self, radius: f32, counts: impl Fn(Label) -> bool) -> Vec<bool> {
+        self.bits(counts).dilated(radius).to_bools()
+    }
+
+    fn bits(&self, counts: impl Fn(Label) -> bool) -> BitImage {
+        let (width, height) = (self.columns.len(), self.rows.len());
+        BitImage::from_fn(width, height, |at| counts(self.labels[at]))
     }
 
     /// The pixels of the arm and its end-effector, in an image of `width` by `height` pixels.

@@ -114,7 +114,7 @@ fn what_is_not_found_lists_places_and_the_input() {
         URL,
         "/nowhere/src/arm_description/meshes/a.stl",
         "/nowhere/install/share/arm_description/meshes/a.stl",
-        "`package_path` as arm_description=FOLDER",
+        "`package_path` arm_description=FOLDER",
     ] {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }

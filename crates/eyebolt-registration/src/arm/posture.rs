@@ -13,6 +13,8 @@ pub struct Posture {
     base_from_link: Vec<Transform<Base, Link>>,
     placed: Vec<Placed>,
     axes: Vec<JointAxis>,
+    /// Corners of a box about the spheres of all links, base frame.
+    about: (Point3<f32>, Point3<f32>),
 }
 
 /// A link's pose the other way round, in single precision, with a sphere about its field.
@@ -22,6 +24,18 @@ struct Placed {
     offset: Vector3<f32>,
     centre_in_base: Point3<f32>,
     radius_m: f32,
+}
+
+/// Corners of a box about the spheres of all links; turned inside out without any.
+fn about(placed: &[Placed]) -> (Point3<f32>, Point3<f32>) {
+    let mut low = Point3::from(Vector3::repeat(f32::INFINITY));
+    let mut high = Point3::from(Vector3::repeat(f32::NEG_INFINITY));
+    for link in placed {
+        let radius = Vector3::repeat(link.radius_m);
+        low = low.inf(&(link.centre_in_base - radius));
+        high = high.sup(&(link.centre_in_base + radius));
+    }
+    (low, high)
 }
 
 /// The surface of the arm nearest to a point.
@@ -50,7 +64,9 @@ impl Posture {
                 radius_m: 0.5 * (high - low).norm(),
             }
         });
-        Self { placed: placed.collect(), base_from_link, axes: Vec::new() }
+        let placed: Vec<Placed> = placed.collect();
+        let about = about(&placed);
+        Self { placed, base_from_link, axes: Vec::new(), about }
     }
 
     /// The same posture, where the arm's joints have their axes at `axes`, in the order of
@@ -88,6 +104,9 @@ impl Posture {
         limit_m: f32,
         first: usize,
     ) -> Option<NearestSurface> {
+        if !self.is_about(point_in_base, limit_m) {
+            return None;
+        }
         let mut best: Option<(usize, DistanceSample)> = None;
         let mut limit_m = limit_m;
         let links = arm.links();
@@ -113,6 +132,15 @@ impl Posture {
         let (link, sample) = best?;
         let gradient_in_base = self.placed[link].link_from_base.tr_mul(&sample.gradient);
         Some(NearestSurface { link, distance_m: sample.distance_m, gradient_in_base })
+    }
+
+    /// Whether a point is so near to the box about all links that one of them may be within `limit_m`.
+    fn is_about(&self, point_in_base: &Point3<f32>, limit_m: f32) -> bool {
+        let (low, high) = &self.about;
+        (0..3).all(|axis| {
+            let x = point_in_base[axis];
+            x >= low[axis] - limit_m && x <= high[axis] + limit_m
+        })
     }
 
     /// The links' meshes where a camera at `camera_from_base` has them.

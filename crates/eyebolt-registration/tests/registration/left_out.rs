@@ -30,13 +30,13 @@ fn millimetres(a: &Transform<Camera, Base>, b: &Transform<Camera, Base>) -> f64 
     1e3 * a.inverse().distance_to(&b.inverse()).0
 }
 
-/// Views of which each saw the arm some millimetres off, in a direction of its own: without it, the
+/// Views of which each saw the arm about a millimetre off, in a direction of its own: without it, the
 /// answer is another.
 #[test]
 fn two_newton_steps_lead_where_a_refinement_does() {
     let scenes = scenes(&truth(), None);
     let mut views = observed(&scenes);
-    let shifts = [[4.0, 0.0, 0.0], [0.0, -5.0, 0.0], [0.0, 0.0, 6.0], [-3.0, 3.0, 0.0]];
+    let shifts = [[1.0, 0.0, 0.0], [0.0, -1.2, 0.0], [0.0, 0.0, 1.5], [-0.8, 0.8, 0.0]];
     for (view, shift) in views.iter_mut().zip(shifts) {
         let by = Vector3::from(shift.map(|mm: f32| 1e-3 * mm));
         view.arm_points.iter_mut().for_each(|point| *point += by);
@@ -52,8 +52,8 @@ fn two_newton_steps_lead_where_a_refinement_does() {
         let first_mm = millimetres(&left_out.first_step().camera_from_base, &exact);
         let second_mm = millimetres(&settled, &exact);
         assert!(moved_mm > 0.3, "view {index} matters: {moved_mm} mm");
-        assert!(first_mm < 0.35 * moved_mm, "view {index}: {first_mm} of {moved_mm} mm");
-        assert!(second_mm < 0.15 * moved_mm + 0.05, "view {index}: {second_mm} of {moved_mm} mm");
+        assert!(first_mm < 0.4 * moved_mm + 0.2, "view {index}: {first_mm} of {moved_mm} mm");
+        assert!(second_mm < 0.1 * moved_mm + 0.1, "view {index}: {second_mm} of {moved_mm} mm");
     }
 }
 

@@ -36,7 +36,7 @@ impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (folder, file) = (Input::PACKAGE_PATH, Input::ROBOT);
         match self {
-            Self::GivePackage(name) => write!(f, "give the folder with {folder} as {name}=FOLDER"),
+            Self::GivePackage(name) => write!(f, "give the folder with {folder} {name}=FOLDER"),
             Self::GiveFolder => write!(
                 f,
                 "put the file there, or give the folder that this path starts in with {folder}"

@@ -197,8 +197,8 @@ pub fn arm_points(
     rays: &RayTable,
     wanted: usize,
 ) -> (Vec<Point3<f32>>, f64) {
-    let inside = labels.distance_where(|label| !label.is_robot());
-    let count = inside.iter().filter(|d| **d > INTERIOR_PX).count();
+    let rim = labels.near(INTERIOR_PX, |label| !label.is_robot());
+    let count = rim.iter().filter(|rim| !**rim).count();
     let stride = ((count as f64 / wanted as f64).sqrt().round() as usize).max(1);
     let (columns, rows) = (labels.columns(), labels.rows());
     let (width, image_width) = (columns.len(), view.depth.width() as usize);
@@ -206,7 +206,7 @@ pub fn arm_points(
     for v in rows.clone().step_by(stride) {
         for u in columns.clone().step_by(stride) {
             let z = view.depth.at(u as u32, v as u32);
-            let clear = inside[(v - rows.start) * width + (u - columns.start)] > INTERIOR_PX;
+            let clear = !rim[(v - rows.start) * width + (u - columns.start)];
             if z > 0.0 && clear {
                 points.push(rays.point(v * image_width + u, z));
             }

@@ -60,7 +60,8 @@ pub fn refine_best<'a>(
     let mut configurations = outcomes(observations, &masks);
     let mut workspace = Workspace::new(observations, &masks, taking_part(&configurations));
     let few = evenly(&workspace.indices, SHORTLIST_CONFIGURATIONS);
-    let mut few = Workspace::with(observations, &masks, few, std::mem::take(&mut workspace.rasters));
+    let mut few =
+        Workspace::with(observations, &masks, few, std::mem::take(&mut workspace.rasters));
     let best = shortlist::choose(&mut few, hypotheses, progress)?;
     workspace = Workspace::with(observations, &masks, workspace.indices, few.rasters);
     let Some(best) = best else {
