@@ -1,10 +1,13 @@
 //! What a calibration works on: arm configurations as one camera saw them.
+//!
+//! Observations never change after they are made: whatever is found out about them, such as joint
+//! offsets, is part of the answer.
 
 use crate::joint_limits::OutsideLimits;
 use eyebolt_geometry::{
     Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
 };
-use eyebolt_registration::{ArmModel, JointOffsets, Posture, View};
+use eyebolt_registration::{ArmModel, Posture, View};
 
 /// Arm configurations, the camera that saw them and the arm.
 #[derive(Clone, Debug)]
@@ -55,7 +58,7 @@ impl Background {
     }
 }
 
-/// Where the depth images of a observations come from.
+/// Where the depth images of observations come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ImageSource {
     /// The recording has depth images and their camera.
@@ -100,14 +103,6 @@ impl Observations {
             depth: &configuration.depth,
             mask: configuration.mask.as_ref(),
             posture: &configuration.posture,
-        }
-    }
-
-    /// Moves the links of all configurations to where the joints put them if they stand farther by
-    /// `offsets` than they say.
-    pub fn move_joints(&mut self, offsets: &JointOffsets) {
-        for configuration in &mut self.configurations {
-            configuration.posture = configuration.posture.moved(&self.arm, offsets);
         }
     }
 

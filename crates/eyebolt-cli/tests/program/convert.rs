@@ -159,3 +159,48 @@ fn a_recording_that_cannot_be_read_leaves_nothing() {
     }
     assert_eq!(desk.names(), ["recording"]);
 }
+
+/// A cube in ASCII STL, counter-clockwise from outside.
+fn stl() -> String {
+    let corner = |i: usize| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|side| 0.06 * side as f64 - 0.03);
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut text = "solid cube\n".to_owned();
+    for [a, b, c, d] in faces {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle.map(corner) {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    text + "endsolid cube\n"
+}
+
+/// What comes with a bag must not make the program read any file that it names.
+#[test]
+fn a_description_from_a_bag_names_no_file_outside_the_package_folders() {
+    let desk = Desk::new();
+    fs::write(desk.file("hand.stl"), stl()).unwrap();
+    let url = format!("file://{}", text(&desk.file("hand.stl")));
+    let described = fs::read_to_string(RECORDING.join("arm.urdf")).unwrap();
+    let flange = "<cylinder radius=\"0.04\" length=\"0.03\"/>";
+    assert!(described.contains(flange));
+    let mesh = format!("<mesh filename=\"{url}\"/>");
+    fs::write(desk.file("arm.urdf"), described.replacen(flange, &mesh, 1)).unwrap();
+    let bag = desk.file("a.mcap");
+    let urdf = desk.file("arm.urdf");
+    assert_eq!(convert(&RECORDING, &bag, &["--robot", text(&urdf)]).code, Some(0));
+    let output = desk.file("c.json");
+    let refused = calibrate(&bag, &output, &[]);
+    refused.assert_error(1, &["hand.stl", "--package-path", "--robot", "--allow-outside-files"]);
+    let folder = desk.path();
+    for more in [vec!["--allow-outside-files"], vec!["--package-path", text(folder)]] {
+        let ended = calibrate(&bag, &output, &[more, vec!["--force"]].concat());
+        assert!(matches!(ended.code, Some(0 | 3)), "{}{}", ended.out, ended.err);
+    }
+    // A file that the user names is trusted.
+    let ended = calibrate(&bag, &output, &["--robot", text(&urdf), "--force"]);
+    assert!(matches!(ended.code, Some(0 | 3)), "{}{}", ended.out, ended.err);
+}

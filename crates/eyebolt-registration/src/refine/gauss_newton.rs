@@ -44,6 +44,14 @@ pub fn refine(
             break;
         };
         ending.last_step = step.fixed_rows::<POSE>(0).into_owned();
+        tracing::trace!(
+            iteration = ending.iterations,
+            step_mm = 1e3 * step.fixed_rows::<3>(0).norm(),
+            step_deg = step.fixed_rows::<3>(3).norm().to_degrees(),
+            deviations = ?weights.deviations,
+            scales = ?weights.scales,
+            "step"
+        );
         state = state.stepped(&step);
         gather(arm, views, rasters, &state, &mut gathered);
         let final_scales = final_scales(&weights.deviations);

@@ -92,6 +92,9 @@ fn outcomes(observations: &Observations, masks: &[Mask]) -> Vec<ConfigurationOut
             let depth = configuration.depth.depth_m();
             let seen = mask.as_slice().iter().zip(depth).filter(|(m, z)| **m && **z > 0.0);
             let pixels = seen.count();
+            if pixels < least {
+                tracing::debug!(frames = ?configuration.frames, pixels, least, "too little of the arm");
+            }
             ConfigurationOutcome {
                 frames: configuration.frames.clone(),
                 dropped: (pixels < least).then_some(Dropped::FewPixels { pixels }),

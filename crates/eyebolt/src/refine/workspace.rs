@@ -63,6 +63,7 @@ impl<'a, 'm> Workspace<'a, 'm> {
         let mut count = 0;
         for (index, misplaced) in self.indices.iter().zip(found) {
             if let Some(misplaced) = misplaced {
+                tracing::debug!(configuration = index, ?misplaced, "a link is seen through");
                 outcomes[*index].dropped = Some(Dropped::Misplaced(misplaced));
                 count += 1;
             }

@@ -75,7 +75,7 @@ fn from_the_left_joints_that_are_off_are_found() {
     assert_honest("paper-test-p3", 3, 0.5, 0.2);
 }
 
-/// The joints of a observations move its links as the joints of the robot do.
+/// The joints of observations move its links as the joints of the robot do.
 #[test]
 fn moved_joints_put_the_links_where_the_robot_has_them() {
     let recorded = Recorded::of(small());
