@@ -25,6 +25,7 @@ const VOXEL_M: f32 = 0.005;
 const MARGIN_M: f32 = 0.06;
 /// How far simplifying may move the surface that is drawn: less than a depth camera's noise.
 const SIMPLIFY_M: f32 = 0.0004;
+/// Points of a link's surface: one for every square centimetre or two of an arm's links.
 const SURFACE_POINTS: usize = 800;
 /// Grid points of one link's distance field: a box of 0.75 m with its margin. Larger links are
 /// sampled more coarsely.

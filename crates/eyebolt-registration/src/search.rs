@@ -44,6 +44,7 @@ impl Candidate {
     }
 }
 
+/// What is farther than this from the arm is wrong, no matter how far: a link's thickness.
 const CAP_M: f64 = 0.10;
 /// Rotations tried: one within about 14 degrees of any.
 const ROTATIONS: usize = 4000;
@@ -51,8 +52,11 @@ const ROTATIONS: usize = 4000;
 const HOPEFUL: usize = 1000;
 /// How many of these are polished with all points, and with which scales.
 const POLISHED: usize = 120;
+/// From the spacing of the starts to what a coarse field tells.
 const POLISH: [f64; 8] = [0.10, 0.08, 0.06, 0.05, 0.04, 0.03, 0.03, 0.03];
+/// Half of what a pose has to be right to for the refinement to take over.
 const COARSE_VOXEL_M: f32 = 0.03;
+/// Starts are off by about this: farther away, distances need not be exact.
 const COARSE_MARGIN_M: f32 = 0.15;
 /// Farther away, all is as far.
 const LARGEST_M: f32 = 2.0;

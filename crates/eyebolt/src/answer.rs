@@ -164,6 +164,7 @@ impl JointOffset {
 
 /// Good arms' zeros are off by a few hundredths of a degree.
 const NOTABLE_OFFSET_DEG: f64 = 0.05;
+/// Surely off: one time in 400 by chance.
 const NOTABLE_SIGMAS: f64 = 3.0;
 
 /// What changes when one configuration is left out.

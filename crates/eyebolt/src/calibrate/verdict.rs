@@ -16,6 +16,7 @@ const OUTSIDE_M: f64 = 0.01;
 /// Zeros of arms that were put together by hand are off by a degree; a joint that seems to be off by
 /// more says that its recorded positions are another's.
 const JOINT_OFF_RAD: f64 = 0.035;
+/// An offset of the first joint counts from where it is surely not zero: beyond its 95 percent interval.
 const FIRST_JOINT_SIGMAS: f64 = 2.0;
 /// Share of the posed arm's pixels that may be contradicted: rims and masks are never exact.
 const CONTRADICTED_SHARE: f64 = 0.25;

@@ -81,6 +81,7 @@ fn turn(rotation: &UnitQuaternion<f64>) -> Transform<Camera, Camera> {
 const POINTS_PER_PIXEL: f64 = 3.0;
 /// Tangent of the widest angle from the axis.
 const WIDEST: f64 = 2.75;
+/// Fewer points show no arm.
 const FEWEST_POINTS: usize = 500;
 /// Share of the points that has to be in view; stray ones need not.
 const IN_VIEW: f64 = 0.98;

@@ -11,6 +11,7 @@ use eyebolt_recording::{Frame, FrameSource};
 /// Pixels of the images that one configuration is made from: enough frames for a median, few
 /// enough for memory.
 const MOST_PIXELS: usize = 12_000_000;
+/// A median of fewer frames hardly reduces noise; of more than the most, no further, since errors of a scene stay.
 const FEWEST_FRAMES: usize = 5;
 pub(super) const MOST_FRAMES: usize = 30;
 

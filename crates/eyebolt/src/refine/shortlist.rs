@@ -27,6 +27,7 @@ const SAME_RAD: f64 = 0.05;
 /// only lead there again.
 const REACH_M: f64 = 0.15;
 const REACH_RAD: f64 = 0.25;
+/// On the LBR Med7 recording the right pose leaves 0.25 contradicted or unexplained after so few steps.
 const GOOD: f64 = 0.4;
 
 /// A hypothesis that the search scores this many times worse than the best cannot be the answer.
