@@ -66,7 +66,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let destination = Destination::new(&arguments.output, arguments.force)?;
-    let bar = Bar::new()?;
+    let bar = Bar::new();
     let recording = arguments.recording.open()?;
     if let Some(folder) = &arguments.save_overlay {
         check_overlays(folder, &recording, arguments.force)?;
@@ -113,6 +113,9 @@ fn named(error: Failure, recording: &Path) -> anyhow::Error {
         Failure::Record(
             RecordError::Kinematics { .. }
                 | RecordError::MaskSize { .. }
+                | RecordError::ImageSize { .. }
+                | RecordError::NoFrames
+                | RecordError::NeverAtRest
                 | RecordError::Projection { .. }
         )
     );

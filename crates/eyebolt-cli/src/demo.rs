@@ -113,7 +113,7 @@ fn calibrate(
 ) -> Result<Ending> {
     let session = folder.join(SESSION);
     let begun = Instant::now();
-    let bar = Bar::new()?;
+    let bar = Bar::new();
     let recording = Recording::open(&session, &BagOptions::default())?;
     let request = Request { cache: cache.clone(), ..Request::new(recording.source(), arm) };
     let outcome = pipeline::run(&request, &bar)?;

@@ -162,7 +162,7 @@ mod tests {
     fn an_input_at_fault_is_told_by_name_and_as_itself() {
         let path = Path::new("a.mcap");
         let error = RecordingError::of_input(path, Input::DEPTH_TOPIC, "no such topic", "Give one");
-        assert_eq!(error.to_string(), "a.mcap: `depth_topic`: no such topic. Give one");
+        assert_eq!(error.to_string(), "a.mcap: argument `depth_topic`: no such topic. Give one");
         assert_eq!(error.input(), Some(Input::DEPTH_TOPIC));
         let error = RecordingError::invalid(path, "magic", "the file is not MCAP", "Give another");
         assert_eq!(error.input(), None);

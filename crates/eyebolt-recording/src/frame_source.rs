@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// A source of frames: depth and joint positions, whatever they are stored in.
 ///
-/// Frames are numbered from 0, in the order of their names, and read when asked for, from as many
+/// Frames are numbered from 0, in the order of [`Self::frame_names`], and read when asked for, from as many
 /// threads as wanted. Everything is in metres, radians and the optical frame (x right, y down, z
 /// forward).
 ///

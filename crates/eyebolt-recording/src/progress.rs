@@ -7,7 +7,8 @@ pub struct Cancelled;
 
 /// Hears how far long work is, and may end it.
 ///
-/// Work asks often enough that a person does not wait for its end, and leaves nothing half done.
+/// Work asks after each of its parts: a message or a frame that is written, a stage or a hypothesis of a
+/// calibration. It leaves nothing half done.
 pub trait Progress {
     /// A stage of this name begins; the one before it is over.
     ///

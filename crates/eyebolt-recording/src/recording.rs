@@ -6,7 +6,7 @@ use crate::error::RecordingError;
 use crate::folder::{Folder, MANIFEST};
 use crate::frame_source::FrameSource;
 use std::ops::Deref;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A recording of depth and joint positions: a [`FrameSource`], which it dereferences to, of a kind
 /// that those can tell who copy it message by message.
@@ -42,11 +42,6 @@ impl Recording {
             Self::Bag(bag) => bag.as_ref(),
             Self::Other(source) => source.as_ref(),
         }
-    }
-
-    /// The files that the recording was read from, or the one that describes its folder.
-    pub fn sources(&self) -> Vec<PathBuf> {
-        self.provenance().files.clone()
     }
 
     /// The bag, if it is one.

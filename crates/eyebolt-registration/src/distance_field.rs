@@ -233,6 +233,8 @@ pub(crate) fn bounded_grid(
 ) -> (f32, [usize; 3]) {
     let points = |voxel: f32| [0, 1, 2].map(|axis| (span[axis] / voxel).ceil().max(1.0) + 1.0);
     let product = |voxel: f32| points(voxel).map(f64::from).iter().product::<f64>();
+    // The least grid has two points along each axis.
+    let most_points = most_points.max(8);
     let mut voxel_m = voxel_m;
     while product(voxel_m) > most_points as f64 {
         let ratio = (product(voxel_m) / most_points as f64).cbrt() as f32;

@@ -5,7 +5,7 @@ use std::fmt;
 /// Something that a caller hands in: a flag of a program, an argument in Python, a field of a form.
 ///
 /// Errors of the libraries say which input is at fault, or which would help, by this; in their
-/// texts it stands as its name in backticks. Whoever talks to a person has names of their own for
+/// texts it stands as ``argument `depth_topic` ``, which no name from outside is taken for. Whoever talks to a person has names of their own for
 /// them: `--depth-topic` for `depth_topic`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Input(&'static str);
@@ -92,12 +92,12 @@ impl Input {
         self.0
     }
 
-    /// `text` with each input that it names in backticks called what `call` calls it.
+    /// `text` with each input that it names called what `call` calls it.
     ///
     /// ```
     /// use eyebolt_robot::Input;
     ///
-    /// let said = Input::in_words("Give `depth_topic`", |input| format!("--{}", input.name()));
+    /// let said = Input::in_words("Give argument `depth_topic`", |input| format!("--{}", input.name()));
     /// assert_eq!(said, "Give --depth_topic");
     /// ```
     pub fn in_words(text: &str, call: impl Fn(Self) -> String) -> String {
@@ -110,7 +110,7 @@ impl Input {
 
 impl fmt::Display for Input {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`", self.0)
+        write!(f, "argument `{}`", self.0)
     }
 }
 
@@ -127,8 +127,9 @@ mod tests {
 
     #[test]
     fn only_inputs_are_renamed() {
-        let text = "link `link1`: name another with `base` or `end_effector`";
+        let text =
+            "link `base` of `robot`: name another with argument `base` or argument `end_effector`";
         let said = Input::in_words(text, |input| input.name().to_uppercase());
-        assert_eq!(said, "link `link1`: name another with BASE or END_EFFECTOR");
+        assert_eq!(said, "link `base` of `robot`: name another with BASE or END_EFFECTOR");
     }
 }

@@ -107,7 +107,7 @@ pub struct Answer {
 /// Names of the frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Frames {
-    /// CoordinateFrame of the camera as the recording names it; the depth optical frame.
+    /// Frame of the camera as the recording names it; the depth optical frame.
     pub camera: Option<String>,
     /// The base link.
     pub base: String,
@@ -164,7 +164,7 @@ impl JointOffset {
 
 /// Good arms' zeros are off by a few hundredths of a degree.
 const NOTABLE_OFFSET_DEG: f64 = 0.05;
-/// Surely off: one time in 400 by chance.
+/// Surely off: one time in 370 by chance.
 const NOTABLE_SIGMAS: f64 = 3.0;
 
 /// What changes when one configuration is left out.

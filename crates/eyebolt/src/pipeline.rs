@@ -68,6 +68,14 @@ pub enum Failure {
     /// The recording or the robot cannot be read, or do not fit.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// The labeller of the request did not label every configuration.
+    #[error("the labeller told of {found} configurations, and there are {wanted}")]
+    Labels {
+        /// How many it labelled.
+        found: usize,
+        /// How many there are.
+        wanted: usize,
+    },
     /// Whoever hears of the progress ended it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -92,6 +100,10 @@ pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Fa
     Step::Label.begin(progress)?;
     let labeller = request.labeller.unwrap_or_else(|| before_pose(&observations));
     let labels = labeller.label(&observations);
+    let (found, wanted) = (labels.len(), observations.configurations.len());
+    if found != wanted {
+        return Err(Failure::Labels { found, wanted });
+    }
 
     Step::Pose.begin(progress)?;
     let search = GlobalSearch::new(request.seed);

@@ -15,6 +15,7 @@ mod spread;
 pub(crate) use configurations::{Group, group_frames};
 pub use error::RecordError;
 pub use observe::observe;
+pub(crate) use options::MOST_CONFIGURATIONS;
 pub use options::RecordOptions;
 pub(crate) use shapes::shapes;
 pub(crate) use spread::most_spread;

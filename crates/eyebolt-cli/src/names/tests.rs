@@ -18,8 +18,9 @@ fn every_input_has_a_flag() {
 
 #[test]
 fn flags_stand_where_inputs_stood() {
-    let said = in_flags("give `max_motion`, or `depth_topic`; link `base_link` is no input");
-    assert_eq!(said, "give --max-motion-deg, or --depth-topic; link `base_link` is no input");
+    let said =
+        in_flags("give argument `max_motion`, or argument `depth_topic`; link `base` is none");
+    assert_eq!(said, "give --max-motion-deg, or --depth-topic; link `base` is none");
 }
 
 /// Flags of other programs that the libraries speak of.

@@ -1,6 +1,7 @@
 //! Work of many equal parts.
 
 use super::interrupt::Interrupt;
+use crate::logging;
 use anyhow::Result;
 use eyebolt::progress::{Cancelled, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,7 +15,7 @@ pub struct Counting {
 impl Counting {
     /// Listens for Ctrl-C.
     pub fn new() -> Result<Self> {
-        let bar = ProgressBar::new(0);
+        let bar = if logging::is_quiet() { ProgressBar::new(0) } else { ProgressBar::hidden() };
         let style = ProgressStyle::with_template("{bar:24} {percent}% {elapsed}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Ok(Self { bar, interrupt: Interrupt::new()? })

@@ -1,5 +1,6 @@
 //! Work whose end nobody knows.
 
+use crate::logging;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
@@ -9,7 +10,10 @@ pub struct Waiting(ProgressBar);
 impl Waiting {
     /// Says `what` is going on.
     pub fn new(what: &'static str) -> Self {
-        let spinner = ProgressBar::new_spinner();
+        let spinner = match logging::is_quiet() {
+            true => ProgressBar::new_spinner(),
+            false => ProgressBar::hidden(),
+        };
         let style = ProgressStyle::with_template("{spinner} {msg} {elapsed}");
         spinner.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
         spinner.set_message(what);

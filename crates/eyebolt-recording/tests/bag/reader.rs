@@ -31,5 +31,5 @@ fn errors_call_it_by_its_name() {
     let (_folder, path) = Bag::sample().without("/joint_states").write();
     let bytes = std::fs::read(path).unwrap();
     let read = BagRecording::from_reader("a queue", Cursor::new(bytes), &options);
-    assert_says(read, &["a queue: `joint_topic`: no topic has joint states"]);
+    assert_says(read, &["a queue: argument `joint_topic`: no topic has joint states"]);
 }

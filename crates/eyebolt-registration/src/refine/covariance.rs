@@ -14,7 +14,7 @@ const LEAST_EIGENVALUE: f64 = 1e-10;
 
 /// Whether `information` is of full rank. Rounding, and the damping of the steps, make one that is
 /// not look regular.
-fn determines_all(information: &Covariance) -> bool {
+pub(super) fn determines_all(information: &Covariance) -> bool {
     let scale = information.diagonal().map(|d| d.sqrt().recip());
     let scaled = Covariance::from_fn(|i, j| information[(i, j)] * scale[i] * scale[j]);
     scaled.iter().all(|v| v.is_finite()) && scaled.symmetric_eigenvalues().min() > LEAST_EIGENVALUE

@@ -1,4 +1,5 @@
-//! How far off the joints of this arm are likely to be, from what its joints together show.
+//! How far off the joints of this arm are likely to be, from what its joints together show:
+//! ARCHITECTURE.md, (7).
 
 use super::covariance::sandwich;
 use super::priors::with_priors;

@@ -1,8 +1,9 @@
 //! What the answer would be without some of its views: ARCHITECTURE.md, (10).
 
+use super::covariance::determines_all;
 use super::priors::with_priors;
 use super::start::Start;
-use super::system::{Sum, System};
+use super::system::System;
 use crate::arm::MOST_JOINTS;
 use crate::unknowns::State;
 
@@ -40,12 +41,17 @@ pub(super) fn without_each(
     views: usize,
 ) -> [Vec<LeftOut>; 2] {
     let totals = [curved.total(), system.total()];
+    let clusters = [curved, system].map(System::cluster_totals);
     let without = |views: Vec<usize>| {
-        let rest = |system: &System<'_>, total: &Sum| {
-            let rest = system.total_without(&views, total);
-            with_priors(rest, state, joint_prior_rad).solve(1e-6)
+        let rest = |system: &System<'_>, number: usize| {
+            let rest = system.total_without(&views, &totals[number], &clusters[number]);
+            with_priors(rest, state, joint_prior_rad)
         };
-        let step = rest(curved, &totals[0]).or_else(|| rest(system, &totals[1]))?;
+        let reweighted = rest(system, 1);
+        if !determines_all(&reweighted.information) {
+            return None;
+        }
+        let step = rest(curved, 0).solve(1e-6).or_else(|| reweighted.solve(1e-6))?;
         Some(LeftOut { views, state: state.stepped(&step) })
     };
     let alone = (0..views).map(|view| without(vec![view])).collect::<Option<Vec<_>>>();

@@ -1,4 +1,4 @@
-//! The linearised problem of one step: ARCHITECTURE.md, (5) to (7).
+//! The linearised problem of one step: ARCHITECTURE.md, (5) and (6).
 //!
 //! Factors are summed once, for each view, link and kind of evidence apart. All that is asked of
 //! them later - the step, priors of other widths, scores of clusters, the problem without a view -
@@ -80,30 +80,44 @@ impl<'a> System<'a> {
     }
 
     /// The sum of all views but those `left_out`; the rest of a cluster then counts as much as the
-    /// whole did.
-    pub fn total_without(&self, left_out: &[usize], total: &Sum) -> Sum {
+    /// whole did. `total` and `cluster_totals` are those of this system.
+    pub fn total_without(&self, left_out: &[usize], total: &Sum, cluster_totals: &[Sum]) -> Sum {
         let mut rest = total.clone();
-        let mut thinned: BTreeMap<usize, usize> = BTreeMap::new();
+        // Of each cluster that others are in too: how many of its views go, how many there are, and
+        // what goes with them.
+        let mut thinned: BTreeMap<usize, (usize, usize, Sum)> = BTreeMap::new();
         for view in left_out {
             for (cluster, sums) in self.clusters[*view].iter().zip(&self.sums[*view]) {
                 sums.iter().for_each(|sum| rest.subtract_all(sum));
                 if cluster.views > 1 {
-                    *thinned.entry(cluster.number).or_default() += 1;
+                    let known = thinned.entry(cluster.number);
+                    let (gone, _, sum) = known.or_insert((0, cluster.views, Sum::default()));
+                    *gone += 1;
+                    sums.iter().for_each(|own| sum.add_all(own));
                 }
             }
         }
-        for (view, (clusters, sums)) in self.clusters.iter().zip(&self.sums).enumerate() {
-            if left_out.contains(&view) {
-                continue;
-            }
-            for (cluster, sums) in clusters.iter().zip(sums) {
-                // Of `n` views `k` left out: the others count `n / (n - k)` times as much.
-                let Some(gone) = thinned.get(&cluster.number) else { continue };
-                let more = *gone as f64 / (cluster.views - gone) as f64;
-                sums.iter().for_each(|sum| rest.add_scaled(sum, more));
+        for (number, (gone, views, sum)) in &thinned {
+            // Of `n` views `k` left out: the others count `n / (n - k)` times as much.
+            let left = views - gone;
+            if left > 0 {
+                let more = *gone as f64 / left as f64;
+                rest.add_scaled(&cluster_totals[*number], more);
+                rest.add_scaled(sum, -more);
             }
         }
         rest
+    }
+
+    /// The sums of each cluster, all kinds of evidence together.
+    pub fn cluster_totals(&self) -> Vec<Sum> {
+        let by_kind = self.by_cluster();
+        let of_all = |kinds: &[Sum]| {
+            let mut total = Sum::default();
+            kinds.iter().for_each(|sum| total.add_all(sum));
+            total
+        };
+        by_kind.chunks(EVIDENCE_KINDS).map(of_all).collect()
     }
 
     /// The sums of each cluster and kind of evidence.

@@ -11,7 +11,7 @@ use eyebolt_registration::Refinement;
 pub struct Calibration {
     /// The answer, for the depth optical frame; `None` if nothing was found at all.
     pub camera_from_base: Option<Transform<Camera, Base>>,
-    /// What the last refinement says, in the observations's own camera frame.
+    /// What the last refinement says, in the observations' own camera frame.
     pub refinement: Option<Refinement>,
     /// One for each configuration of the observations.
     pub configurations: Vec<ConfigurationOutcome>,

@@ -28,18 +28,20 @@ pub(super) struct WithoutParts {
     pub parts: Vec<Start>,
 }
 
-/// The answers without parts of the views; `None` with fewer than three views, or where the rest does
-/// not determine the pose.
+/// The answers without parts of the views; `None` with fewer than three views.
+///
+/// Where the views but one do not determine the pose, Newton's step leads nowhere, and refining on
+/// tells how far the answer moves before it stops.
 pub(super) fn without_parts(
     work: &mut Workspace<'_, '_>,
     seen: &[RefineView<'_>],
     refinement: &Refinement,
     how: Jackknife,
 ) -> Option<WithoutParts> {
-    if seen.len() < 3 || refinement.left_out.is_empty() {
+    if seen.len() < 3 {
         return None;
     }
-    if how == Jackknife::Exact {
+    if how == Jackknife::Exact || refinement.left_out.is_empty() {
         let all = (0..seen.len()).map(|index| without(work, seen, refinement, index));
         let configurations: Vec<Start> = all.collect();
         return Some(WithoutParts { parts: configurations.clone(), configurations });

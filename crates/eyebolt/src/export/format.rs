@@ -84,8 +84,10 @@ impl Format {
                 "Fixed joint and link; rpy about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll)"
             }
             Self::Csv => "4 x 4 matrix that maps child to parent: a row a line, metres, no header",
-            Self::Npy => "The same matrix for numpy.load: float64, C order; needs `output`",
-            Self::Mcap => "/tf_static in an MCAP for Foxglove or ros2 bag; needs `output`",
+            Self::Npy => {
+                "The same matrix for numpy.load: float64, C order; needs argument `output`"
+            }
+            Self::Mcap => "/tf_static in an MCAP for Foxglove or ros2 bag; needs argument `output`",
         }
     }
 

@@ -4,15 +4,13 @@ use super::advice;
 use super::depth::depth_statistics;
 use super::form::{Clock, Configuration, Dropped, Frames, Info, RobotFit, SCHEMA};
 use crate::joint_limits::WorstOutside;
-use crate::record::{Group, RecordError, group_frames};
+use crate::record::{Group, MOST_CONFIGURATIONS, RecordError, group_frames};
 use eyebolt_recording::{FrameSource, Provenance, RecordingError};
 use eyebolt_robot::{Arm, JointPositions};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Frames that do not take part are listed one by one up to this.
 const MOST_LISTED: usize = 1000;
-/// Configurations are told apart, and listed, up to this: an arm in more places never rests.
-const MOST_CONFIGURATIONS: usize = 2000;
 
 impl Info {
     /// Looks at `source`, and at how it fits `arm` if one is known.

@@ -3,7 +3,7 @@
 use super::error::RecordError;
 use super::merge::median_depth;
 use super::projection::Projection;
-use super::reader::MOST_FRAMES;
+use super::reader::{MOST_FRAMES, check_size};
 use crate::evenly::evenly;
 use crate::observations::{Background, Configuration, ImageSource};
 use eyebolt_geometry::DepthImage;
@@ -32,9 +32,13 @@ pub(super) fn read(
     for index in evenly(&indices, MOST_FRAMES) {
         match source.read_background(index) {
             Err(error) if source.may_leave_out(&error) => {
-                tracing::debug!(index, %error, "background frame left out");
+                tracing::debug!(index, ?error, "background frame left out");
             }
-            read => images.push(read?),
+            read => {
+                let image = read?;
+                check_size(&format!("background {index}"), &image, &projection.camera)?;
+                images.push(image);
+            }
         }
     }
     let Some(background) = median_depth(&images) else { return Ok(Background::None) };

@@ -39,6 +39,18 @@ pub enum RecordError {
         /// Width and height of the images.
         size: (u32, u32),
     },
+    /// A depth image is not of the camera's size.
+    #[error(
+        "{what}: the depth image is {} x {} pixels, but its camera has {} x {}", found.0, found.1, size.0, size.1
+    )]
+    ImageSize {
+        /// Which frame or background.
+        what: String,
+        /// Width and height of the image.
+        found: (u32, u32),
+        /// Width and height that its camera has.
+        size: (u32, u32),
+    },
     /// A link is larger than any arm.
     #[error(
         "link {link}: {extent_m:.0} m long; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", \

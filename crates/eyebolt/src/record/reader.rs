@@ -11,8 +11,9 @@ use eyebolt_recording::{Frame, FrameSource};
 /// Pixels of the images that one configuration is made from: enough frames for a median, few
 /// enough for memory.
 const MOST_PIXELS: usize = 12_000_000;
-/// A median of fewer frames hardly reduces noise; of more than the most, no further, since errors of a scene stay.
+/// A median of fewer frames hardly reduces noise.
 const FEWEST_FRAMES: usize = 5;
+/// Nor does one of more frames, since the errors of a scene stay.
 pub(super) const MOST_FRAMES: usize = 30;
 
 /// The first of `frames` that can be read.
@@ -60,7 +61,9 @@ impl Reader<'_> {
             };
             let mask = frame.mask.filter(|_| self.options.use_masks);
             check_mask(&frame.name, mask.as_ref(), camera)?;
-            images.push(self.projection.depth_image(frame.range));
+            let image = self.projection.depth_image(frame.range);
+            check_size(&format!("frame {}", frame.name), &image, camera)?;
+            images.push(image);
             masks.push(mask);
         }
         if let Some(error) = left_out.filter(|_| images.is_empty()) {
@@ -77,6 +80,19 @@ impl Reader<'_> {
         let depth_m = image.into_depth_m().into_iter().zip(self.rays.rays()).map(known).collect();
         DepthImage::new(width, height, depth_m).expect("as many pixels as before")
     }
+}
+
+/// A source of anybody's may hand out images of any size.
+pub(super) fn check_size(
+    what: &str,
+    image: &DepthImage,
+    camera: &PinholeCamera,
+) -> Result<(), RecordError> {
+    let (found, size) = ((image.width(), image.height()), (camera.width(), camera.height()));
+    if found == size {
+        return Ok(());
+    }
+    Err(RecordError::ImageSize { what: what.to_owned(), found, size })
 }
 
 /// A mask belongs to the pixels of the camera's images, also where clouds of another size are drawn

@@ -15,10 +15,10 @@ pub struct Agreement {
     pub contradict: usize,
     /// Pixels of the posed arm where nothing can be said: hidden, or without depth.
     pub unknown: usize,
-    /// Of the pixels known to be the arm, every other one of every other row is looked at: those
-    /// that lie on the posed arm's surface.
+    /// Pixels known to be the arm that lie on the posed arm's surface, of those looked at: every other
+    /// one of every other row.
     pub explained: usize,
-    /// Those that do not.
+    /// Those looked at that do not.
     pub unexplained: usize,
     /// Pixels of both the posed arm and the mask that the recording has.
     pub overlap: usize,

@@ -10,9 +10,9 @@ use eyebolt::pose::{Hypothesis, PoseProposer};
 use eyebolt::progress::{Cancelled, Progress, Step};
 use eyebolt::record::{RecordOptions, observe};
 use eyebolt_geometry::{DepthImage, Mask};
-use eyebolt_recording::{Frame, InMemory, Range};
+use eyebolt_recording::{Frame, FrameSource, InMemory, Range, RecordingError};
 use eyebolt_registration::{Label, Labels, LinkCache};
-use eyebolt_robot::{Arm, PackageRoots, Robot};
+use eyebolt_robot::{Arm, JointPositions, PackageRoots, Robot};
 use std::cell::RefCell;
 
 fn arm() -> Arm {
@@ -129,5 +129,71 @@ fn a_posed_model_tells_the_end_effector_from_the_arm() {
         assert!(both * 100 > seen * 97, "{both} of {seen}");
         let (hand, rest) = (labels.count(Label::EndEffector), labels.count(Label::Arm));
         assert!(hand > 100 && rest > 2 * hand, "{hand} of the hand, {rest} of the rest");
+    }
+}
+
+/// Labels one configuration, whatever there are.
+#[derive(Debug)]
+struct Lazy;
+
+impl Labeller for Lazy {
+    fn label(&self, _: &Observations) -> Vec<Labels> {
+        vec![Labels::from_fn(0..0, 0..0, |_, _| Label::Background)]
+    }
+}
+
+#[test]
+fn a_labeller_that_leaves_configurations_out_is_an_error() {
+    let (source, arm) = (source(shots()), arm());
+    let request = Request { labeller: Some(&Lazy), ..Request::new(&source, &arm) };
+    let failed = run(&request, &()).unwrap_err();
+    assert!(matches!(failed, Failure::Labels { found: 1, wanted: 5 }), "{failed}");
+}
+
+/// The frames of another source, one of its images or its background cut.
+#[derive(Debug)]
+struct Cut {
+    whole: InMemory,
+    frame: Option<usize>,
+}
+
+impl FrameSource for Cut {
+    fn camera(&self) -> Option<&eyebolt_geometry::PinholeCamera> {
+        self.whole.camera()
+    }
+
+    fn frame_names(&self) -> &[String] {
+        self.whole.frame_names()
+    }
+
+    fn read_frame(&self, index: usize) -> Result<Frame, RecordingError> {
+        let frame = self.whole.read_frame(index)?;
+        let range = match self.frame == Some(index) {
+            true => Range::Depth(DepthImage::new(2, 2, vec![1.0; 4]).unwrap()),
+            false => frame.range,
+        };
+        Ok(Frame { range, mask: None, ..frame })
+    }
+
+    fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
+        self.whole.read_joints(index)
+    }
+
+    fn background_count(&self) -> usize {
+        1
+    }
+
+    fn read_background(&self, _: usize) -> Result<DepthImage, RecordingError> {
+        Ok(DepthImage::new(3, 1, vec![2.0; 3]).unwrap())
+    }
+}
+
+#[test]
+fn images_of_another_size_than_the_cameras_are_errors() {
+    let arm = arm();
+    for (frame, named) in [(Some(3), "frame 3"), (None, "background 0")] {
+        let source = Cut { whole: source(shots()), frame };
+        let failed = run(&Request::new(&source, &arm), &()).unwrap_err().to_string();
+        assert!(failed.contains(named) && failed.contains("pixels"), "{failed}");
     }
 }

@@ -96,7 +96,10 @@ fn only_what_is_stated_of_the_intrinsics_is_wrong() {
         let error = plan(scenario, &CACHE).err().unwrap();
         assert!(matches!(error, SimulateError::Intrinsics(_)), "{error}");
         assert_eq!(error.input(), Some(Input::FOCAL_SCALE));
-        assert!(error.to_string().starts_with("`focal_scale`, `centre`: "), "{error}");
+        assert!(
+            error.to_string().starts_with("argument `focal_scale`, argument `centre`: "),
+            "{error}"
+        );
     }
 }
 

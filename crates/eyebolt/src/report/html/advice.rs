@@ -19,7 +19,7 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
              cannot be told from the room.",
         ],
         Reason::OtherRobot { .. } => &[
-            "Give the description of the robot that was recorded: `robot`.",
+            "Give the description of the robot that was recorded: argument `robot`.",
             "If joints have other names in the recording, rename them where they are published or in \
              recording.toml.",
         ],
@@ -65,7 +65,7 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
             "Record more configurations, spread over the workspace, nearer to the camera.",
             "See below which source the error comes from; if surfaces and outlines disagree, check the \
              intrinsics and the depth's scale.",
-            "If this is accurate enough for the task, say so: `max_error_translation`, `max_error_rotation`.",
+            "If this is accurate enough for the task, say so: argument `max_error_translation`, argument `max_error_rotation`.",
         ],
     }
 }

@@ -65,7 +65,7 @@ fn words(source: ErrorSource) -> [&'static str; 2] {
         ],
         ErrorSource::LeftOut => [
             "dependence on single configurations",
-            "jackknife: the fit is repeated without each configuration in turn",
+            "jackknife: what the fit would be without each configuration, or of more than ten without each tenth of them",
         ],
         ErrorSource::Disagreement => [
             "disagreement of the kinds of evidence",

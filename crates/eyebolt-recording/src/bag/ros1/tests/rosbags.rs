@@ -139,7 +139,7 @@ fn a_corrupt_chunk_costs_its_own_messages_only() {
             let [problem] = problems.as_slice() else { panic!("{problems:?}") };
             let field = format!("record at byte {corrupt}: it cannot be decompressed: ");
             assert!(problem.contains(&field), "{problem}");
-            assert!(problem.ends_with("or give `partial` to use the rest"), "{problem}");
+            assert!(problem.ends_with("or give argument `partial` to use the rest"), "{problem}");
         }
     }
 }

@@ -4,7 +4,7 @@ use super::support::{bag, scan, scan_whole};
 use super::writer::{MAGIC, bag_header, chunk, compressed, connection, message};
 use super::writer::{true_chunk, unindexed};
 
-const CUT: &str = "Was the recorder killed? Repair it with `rosbag reindex`, or give `partial` to use what is before";
+const CUT: &str = "Was the recorder killed? Repair it with `rosbag reindex`, or give argument `partial` to use what is before";
 
 fn camera() -> Vec<u8> {
     connection(0, "/camera", "sensor_msgs/Image")

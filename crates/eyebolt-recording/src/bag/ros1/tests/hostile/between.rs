@@ -4,7 +4,7 @@ use super::super::support::{bag, scan};
 use super::super::writer::{connection, message, unindexed};
 
 pub(super) const REST: &str =
-    "The file is damaged: copy it again, or give `partial` to use the rest";
+    "The file is damaged: copy it again, or give argument `partial` to use the rest";
 
 pub(super) fn camera() -> Vec<u8> {
     connection(0, "/camera", "sensor_msgs/Image")
