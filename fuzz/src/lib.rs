@@ -6,7 +6,6 @@ use eyebolt_net::graph::{Domain, Graph, GraphBuilder, Source};
 use eyebolt_recording::{BagOptions, Recording, WriteRobot, read_truth, write_mcap};
 use std::fs;
 use std::io::Cursor;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -44,7 +43,7 @@ pub fn recording(path: &Path) {
         }
         let mut written = Cursor::new(Vec::new());
         let robot = WriteRobot::default();
-        let _ = write_mcap(&recording, &robot, &mut written, &mut |_, _| ControlFlow::Continue(()));
+        let _ = write_mcap(&recording, &robot, &mut written, &());
     }
 }
 
