@@ -45,9 +45,10 @@ fn the_view_turns_and_all_is_drawn_without_the_network() {
     assert_eq!(found["names"], json!([base, "x", "y", "z", camera, "x", "y", "z"]));
     let links = GOOD.outcome.observations.as_ref().unwrap().arm.links().len();
     let marks = json!({
-        "surface-by-configuration": 5,
-        "surface-by-link": links,
-        "outline-by-configuration": 5,
+        "surfaces-by-configuration": 5,
+        "surfaces-by-link": links,
+        "outlines-by-configuration": 5,
+        "outlines-by-link": links,
         "leave-one-out": 2 * 4,
         "deviations": 2 * 3,
         "correlations": 21,
