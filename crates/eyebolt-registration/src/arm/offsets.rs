@@ -12,11 +12,11 @@ pub struct JointAxis {
     pub along_in_base: Unit<Vector3<f64>>,
 }
 
-/// How much farther each joint of an [`ArmModel`] stands than it says, radians; zero beyond its
+/// How much farther each joint of an [`ArmModel`](super::ArmModel) stands than it says, radians; zero beyond its
 /// last joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointOffsets {
-    /// In the order of [`ArmModel::joints`].
+    /// In the order of [`ArmModel::joints`](super::ArmModel::joints).
     pub rad: [f64; MOST_JOINTS],
 }
 
