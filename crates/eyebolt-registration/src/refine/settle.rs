@@ -1,4 +1,4 @@
-//! One more step of an answer without some views, with residuals of its own.
+//! More steps of an answer without some views, with residuals of their own.
 
 use super::clusters::clusters;
 use super::gather::{ViewFactors, deviations, gather};
@@ -11,8 +11,8 @@ use super::system::{Matrix, System, Weights};
 use crate::arm::ArmModel;
 use eyebolt_render::Raster;
 
-/// The answer without the views of `left_out`: draws the arm anew where the first step led and takes a
-/// second one, after which it moves by less than the drawing's pixels make of it.
+/// The answer without the views of `left_out`: draws the arm anew where the first step led and takes
+/// another one, `steps` times.
 ///
 /// `views` and `rasters` are those that `refinement` was made from.
 pub fn settle(
@@ -21,6 +21,7 @@ pub fn settle(
     rasters: &mut [Raster],
     refinement: &Refinement,
     left_out: &LeftOut,
+    steps: usize,
 ) -> Start {
     let kept: Vec<RefineView<'_>> = views
         .iter()
@@ -28,18 +29,22 @@ pub fn settle(
         .filter(|(view, _)| !left_out.views.contains(view))
         .map(|(_, view)| view.clone())
         .collect();
-    let state = &left_out.state;
-    let mut gathered = vec![ViewFactors::default(); kept.len()];
-    gather(arm, &kept, &mut rasters[..kept.len()], state, &mut gathered);
-    let scales = final_scales(&refinement.deviations);
-    let deviations = deviations(&gathered, &scales);
-    let weights = Weights { scales, deviations, trust: Trust::All };
     let clusters = clusters(&kept);
-    let step = |matrix| {
-        let system = System::new(&gathered, &clusters, &weights, matrix);
-        with_priors(system.total(), state, &refinement.joint_prior_rad).solve(1e-6)
-    };
-    let step = step(Matrix::Curvature).or_else(|| step(Matrix::Reweighted));
-    let end = step.map_or(*state, |step| state.stepped(&step));
+    let scales = final_scales(&refinement.deviations);
+    let mut gathered = vec![ViewFactors::default(); kept.len()];
+    let mut end = left_out.state;
+    for _ in 0..steps {
+        gather(arm, &kept, &mut rasters[..kept.len()], &end, &mut gathered);
+        let deviations = deviations(&gathered, &scales);
+        let weights = Weights { scales, deviations, trust: Trust::All };
+        let step = |matrix| {
+            let system = System::new(&gathered, &clusters, &weights, matrix);
+            with_priors(system.total(), &end, &refinement.joint_prior_rad).solve(1e-6)
+        };
+        let Some(step) = step(Matrix::Curvature).or_else(|| step(Matrix::Reweighted)) else {
+            break;
+        };
+        end = end.stepped(&step);
+    }
     Start { camera_from_base: end.camera_from_base, joint_offsets: end.joint_offsets }
 }

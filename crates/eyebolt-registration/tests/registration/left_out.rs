@@ -47,7 +47,7 @@ fn two_newton_steps_lead_where_a_refinement_does() {
     for (index, left_out) in full.left_out.iter().enumerate() {
         assert_eq!(left_out.views, [index]);
         let exact = without(&views, &full, index).camera_from_base;
-        let settled = settle(&ARM, &views, &mut rasters(4), &full, left_out).camera_from_base;
+        let settled = settle(&ARM, &views, &mut rasters(4), &full, left_out, 1).camera_from_base;
         let moved_mm = millimetres(&exact, &full.camera_from_base);
         let first_mm = millimetres(&left_out.first_step().camera_from_base, &exact);
         let second_mm = millimetres(&settled, &exact);
