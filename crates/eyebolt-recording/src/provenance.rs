@@ -8,6 +8,7 @@ pub use clock_offset::ClockOffset;
 pub use dropped_frame::{DropReason, DroppedFrame};
 pub use topic_summary::TopicSummary;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Where the frames of a source come from, and what was found out on the way: plain data, for
@@ -30,6 +31,18 @@ pub struct Provenance {
     pub damage: Vec<String>,
     /// All topics, sorted by name.
     pub topics: Vec<TopicSummary>,
+}
+
+impl Provenance {
+    /// How many frames do not take part, by the name of the reason.
+    #[must_use]
+    pub fn dropped_by_reason(&self) -> BTreeMap<&'static str, usize> {
+        let mut counts = BTreeMap::new();
+        for frame in &self.dropped {
+            *counts.entry(frame.reason.name()).or_default() += 1;
+        }
+        counts
+    }
 }
 
 /// Nothing known.

@@ -8,7 +8,6 @@ use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::observations::{Background, ImageSource, Observations};
 use crate::pipeline::{Outcome, Request};
 use eyebolt_geometry::{CoordinateFrame, Distortion, PinholeCamera, Transform};
-use eyebolt_recording::Provenance;
 use eyebolt_registration::Refinement;
 use nalgebra::{Matrix6, Point3};
 use serde::Serialize;
@@ -250,7 +249,7 @@ impl Answer {
             end_effector_off_by_joints_mm: observations
                 .and_then(|observations| end_effector_off_mm(observations, calibration)),
             configurations: frame_outcomes(calibration),
-            frames_left_out: left_out(request.source.provenance()),
+            frames_left_out: request.source.provenance().dropped_by_reason(),
             spare_configurations: observations
                 .map_or(0, |observations| observations.spare_configurations),
             clock_offset_s: request
@@ -412,13 +411,4 @@ fn background(background: &Background) -> Option<&'static str> {
         Background::Seen(_) => Some("used"),
         Background::OfAnotherScene => Some("of_another_scene"),
     }
-}
-
-/// How many frames do not take part, by reason.
-fn left_out(provenance: &Provenance) -> BTreeMap<&'static str, usize> {
-    let mut counts = BTreeMap::new();
-    for frame in &provenance.dropped {
-        *counts.entry(frame.reason.name()).or_default() += 1;
-    }
-    counts
 }

@@ -7,7 +7,7 @@ use crate::joint_limits::WorstOutside;
 use crate::record::{Group, MOST_CONFIGURATIONS, RecordError, group_frames};
 use eyebolt_recording::{FrameSource, Provenance, RecordingError};
 use eyebolt_robot::{Arm, JointPositions};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Frames that do not take part are listed one by one up to this.
 const MOST_LISTED: usize = 1000;
@@ -60,13 +60,9 @@ fn frames(used: usize, provenance: &Provenance) -> Frames {
         kind: frame.reason.name(),
         reason: frame.reason.to_string(),
     });
-    let mut dropped = BTreeMap::new();
-    for frame in &provenance.dropped {
-        *dropped.entry(frame.reason.name()).or_default() += 1;
-    }
     Frames {
         used,
-        dropped,
+        dropped: provenance.dropped_by_reason(),
         dropped_frames: listed.collect(),
         motion_limit_deg: provenance.motion_limit.map(f64::to_degrees),
     }
