@@ -22,6 +22,9 @@ pub struct SearchView<'a> {
     pub view: View<'a>,
     /// Points that are on the arm, or most of them: camera frame, metres.
     pub arm_points: Vec<Point3<f32>>,
+    /// Middles of the patches that these points form, and of all of them: the arm is one of these, or
+    /// near it.
+    pub middles: Vec<Point3<f32>>,
     /// The part of the arm's surface that `arm_points` came from, base frame.
     pub surface: Vec<SurfacePoint>,
 }
@@ -73,7 +76,10 @@ pub fn search(
     seed: u64,
     wanted: usize,
 ) -> Vec<Candidate> {
-    if views.is_empty() || views.iter().any(|v| v.arm_points.is_empty() || v.surface.is_empty()) {
+    let is_empty = |view: &SearchView<'_>| {
+        view.arm_points.is_empty() || view.middles.is_empty() || view.surface.is_empty()
+    };
+    if views.is_empty() || views.iter().any(is_empty) {
         return Vec::new();
     }
     let fields: Vec<DistanceField> =
@@ -82,7 +88,7 @@ pub fn search(
     let many: Vec<Problem<'_>> = problems(views, &fields, 200, 120);
     let starts = spread_rotations(ROTATIONS, seed);
     let starts: Vec<Isometry3<f64>> =
-        starts.iter().map(|rotation| start_translation(&few, rotation)).collect();
+        starts.par_iter().map(|rotation| start_translation(&few, rotation)).collect();
     // Most starts are hopeless, which two steps are enough to tell.
     let starts = best(&few, &starts, &[0.20, 0.15], HOPEFUL);
     let starts = best(&few, &poses(&starts), &[0.12, 0.10, 0.08], HOPEFUL);
@@ -159,7 +165,7 @@ struct Problem<'a> {
     field: &'a DistanceField,
     arm_points: Vec<Point3<f32>>,
     surface: Vec<SurfacePoint>,
-    centroid: Vector3<f32>,
+    middles: &'a [Point3<f32>],
 }
 
 fn problems<'a>(
@@ -169,15 +175,12 @@ fn problems<'a>(
     surface: usize,
 ) -> Vec<Problem<'a>> {
     let pair = views.iter().zip(fields);
-    pair.map(|(view, field)| {
-        let sum: Vector3<f32> = view.arm_points.iter().map(|p| p.coords).sum();
-        Problem {
-            view: &view.view,
-            field,
-            arm_points: thinned(&view.arm_points, points),
-            surface: thinned(&view.surface, surface),
-            centroid: sum / view.arm_points.len() as f32,
-        }
+    pair.map(|(view, field)| Problem {
+        view: &view.view,
+        field,
+        arm_points: thinned(&view.arm_points, points),
+        surface: thinned(&view.surface, surface),
+        middles: &view.middles,
     })
     .collect()
 }
@@ -188,22 +191,47 @@ fn thinned<T: Copy>(items: &[T], count: usize) -> Vec<T> {
     (0..count).map(|i| items[(2 * i + 1) * items.len() / (2 * count)]).collect()
 }
 
-/// `base_from_camera` of this rotation that lays the side of the arm turned to the camera on the
-/// points seen.
+/// Translations from single views that are nearer to each other than this may be of the same pose,
+/// metres: of a patch of the arm its middle is not the arm's.
+const CONSENSUS_M: f32 = 0.3;
+
+/// `base_from_camera` of this rotation that lays the side of the arm turned to the camera on a patch of
+/// points seen, in as many views as agree on a translation.
 fn start_translation(
     problems: &[Problem<'_>],
     base_from_camera: &UnitQuaternion<f64>,
 ) -> Isometry3<f64> {
     let rotation = base_from_camera.cast::<f32>();
-    let mut sum = Vector3::zeros();
-    for problem in problems {
-        let sight = rotation * problem.centroid;
-        let visible = problem.surface.iter().filter(|s| s.normal.dot(&sight) < 0.0);
-        let (total, count) =
-            visible.fold((Vector3::zeros(), 0usize), |(t, n), s| (t + s.point.coords, n + 1));
-        sum += total / count.max(1) as f32 - sight;
-    }
-    let translation = sum / problems.len() as f32;
+    let of_view = |problem: &Problem<'_>| -> Vec<Vector3<f32>> {
+        let lay = |middle: &Point3<f32>| {
+            let sight = rotation * middle.coords;
+            let visible = problem.surface.iter().filter(|s| s.normal.dot(&sight) < 0.0);
+            let (total, count) =
+                visible.fold((Vector3::zeros(), 0usize), |(t, n), s| (t + s.point.coords, n + 1));
+            total / count.max(1) as f32 - sight
+        };
+        problem.middles.iter().map(lay).collect()
+    };
+    let views: Vec<Vec<Vector3<f32>>> = problems.iter().map(of_view).collect();
+    let nearest = |view: &[Vector3<f32>], to: &Vector3<f32>| {
+        let near = |a: &&Vector3<f32>, b: &&Vector3<f32>| {
+            (*a - to).norm_squared().total_cmp(&(*b - to).norm_squared())
+        };
+        view.iter().min_by(near).copied().filter(|t| (t - to).norm() < CONSENSUS_M)
+    };
+    let supporters = |to: &Vector3<f32>| -> Vec<Vector3<f32>> {
+        views.iter().filter_map(|view| nearest(view, to)).collect()
+    };
+    let spread = |to: &Vector3<f32>, all: &[Vector3<f32>]| -> f32 {
+        all.iter().map(|t| (t - to).norm()).sum::<f32>() / all.len().max(1) as f32
+    };
+    let best = views.iter().flatten().map(|to| (to, supporters(to))).max_by(|(a, by_a), (b, by_b)| {
+        let tighter = || spread(b, by_b).total_cmp(&spread(a, by_a));
+        by_a.len().cmp(&by_b.len()).then_with(tighter)
+    });
+    let translation = best.map_or(Vector3::zeros(), |(_, all)| {
+        all.iter().sum::<Vector3<f32>>() / all.len() as f32
+    });
     Isometry3::from_parts(Translation3::from(translation.cast::<f64>()), *base_from_camera)
 }
 

@@ -37,11 +37,6 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// The arm at `camera_from_base` with nothing else known to be off.
-    pub fn new(camera_from_base: Transform<Camera, Base>, joint_offsets: JointOffsets) -> Self {
-        Self { camera_from_base, nuisances: [0.0; EVIDENCE_KINDS], joint_offsets }
-    }
-
     pub fn stepped(&self, step: &Unknowns) -> Self {
         let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT);
         let rad = std::array::from_fn(|joint| self.joint_offsets.rad[joint] + joints[joint]);

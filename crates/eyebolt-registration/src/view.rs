@@ -12,6 +12,8 @@ pub struct View<'a> {
     pub camera: &'a PinholeCamera,
     /// What it saw, of the camera's size.
     pub depth: &'a DepthImage,
+    /// What depth seen has to be multiplied by to be true depth, as far as is known: 1 at first.
+    pub depth_factor: f32,
     /// The whole arm's pixels, where somebody marked them.
     pub mask: Option<&'a Mask>,
     /// The arm's links in the base frame.
@@ -30,6 +32,15 @@ pub enum Consistency {
 }
 
 impl View<'_> {
+    /// True depth at row-major pixel `at`, metres, as far as is known; 0 where nothing was seen.
+    ///
+    /// # Panics
+    ///
+    /// Beyond the last pixel.
+    pub fn depth_m(&self, at: usize) -> f32 {
+        self.depth_factor * self.depth.depth_m()[at]
+    }
+
     /// What the view says of a surface point of the arm at `point_in_camera`.
     pub fn consistency(&self, point_in_camera: &Point3<f32>) -> Consistency {
         let Some(pixel) = self.camera.project(&point_in_camera.cast()) else {
@@ -44,7 +55,7 @@ impl View<'_> {
         }
         // Rounds, since both are above -0.5; `round` is a call on most CPUs.
         let (u, v) = ((pixel.x + 0.5) as u32, (pixel.y + 0.5) as u32);
-        let seen = self.depth.at(u, v);
+        let seen = self.depth_factor * self.depth.at(u, v);
         let tolerance = Margin::Search.at_m(z);
         if seen > 0.0 && seen < z - tolerance {
             return Consistency::Unknown;

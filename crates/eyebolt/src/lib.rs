@@ -3,6 +3,7 @@
 pub mod answer;
 pub mod calibrate;
 pub mod evaluate;
+pub mod depth_noise;
 mod evenly;
 pub mod export;
 pub mod info;

@@ -3,6 +3,7 @@
 //! Observations never change after they are made: whatever is found out about them, such as joint
 //! offsets, is part of the answer.
 
+use crate::depth_noise::DepthNoise;
 use crate::joint_limits::OutsideLimits;
 use eyebolt_geometry::{
     Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
@@ -27,6 +28,8 @@ pub struct Observations {
     pub configurations: Vec<Configuration>,
     /// The scene without the arm.
     pub background: Background,
+    /// By how much depth differs from one configuration to the next where nothing moved.
+    pub noise: DepthNoise,
     /// Joints of the hand that the recording does not have, and that were put at their lower limit.
     pub assumed_joints: Vec<String>,
     /// Joints of the arm that were recorded outside their limits, each where it is farthest out.
@@ -101,6 +104,7 @@ impl Observations {
         View {
             camera: &self.camera,
             depth: &configuration.depth,
+            depth_factor: 1.0,
             mask: configuration.mask.as_ref(),
             posture: &configuration.posture,
         }

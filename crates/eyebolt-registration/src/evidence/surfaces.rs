@@ -44,9 +44,9 @@ impl EvidenceKind for Surfaces {
         400.0
     }
 
-    /// Depth of good cameras is long or short by about a percent.
+    /// Depth of cameras is long or short by one to two percent.
     fn nuisance_deviation(&self) -> f64 {
-        0.01
+        0.015
     }
 
     fn needs_drawing(&self) -> bool {

@@ -7,7 +7,7 @@ use crate::arm::{ArmJoint, ArmLink, ArmModel, JointAxis, JointOffsets, Posture};
 use crate::distance_field::DistanceField;
 use crate::link_model::LinkModel;
 use crate::silhouette::{Label, Labels, Silhouette};
-use crate::unknowns::{OUTLINES, SURFACES, State, Unknowns};
+use crate::unknowns::{EVIDENCE_KINDS, OUTLINES, SURFACES, State, Unknowns};
 use eyebolt_geometry::{Base, Distortion, Link, PinholeCamera, Transform};
 use eyebolt_render::ContourPoint;
 use eyebolt_robot::TriangleMesh;
@@ -23,6 +23,11 @@ fn config() -> Config {
 
 fn vector(limit: f64) -> impl Strategy<Value = Vector3<f64>> {
     [-limit..limit, -limit..limit, -limit..limit].prop_map(Vector3::from)
+}
+
+fn unmoved() -> State {
+    let (camera_from_base, joint_offsets) = (Transform::identity(), JointOffsets::default());
+    State { camera_from_base, nuisances: [0.0; EVIDENCE_KINDS], joint_offsets }
 }
 
 fn state() -> impl Strategy<Value = State> {
@@ -157,7 +162,7 @@ fn an_outline_turned_the_other_way_is_another_edge() {
     let silhouette = Silhouette::new(&Labels::from_fn(0..64, 0..48, |u, _| {
         if u < 30 { Label::Arm } else { Label::Background }
     }));
-    let state = State::new(Transform::identity(), JointOffsets::default());
+    let state = unmoved();
     let arm = plane(Vector3::z());
     let posture = Posture::new(&arm, vec![Transform::identity()]);
     let factor = |outward: Vector2<f32>| {
@@ -177,7 +182,7 @@ fn an_outline_turned_the_other_way_is_another_edge() {
 
 #[test]
 fn a_surface_that_faces_away_was_not_seen() {
-    let state = State::new(Transform::identity(), JointOffsets::default());
+    let state = unmoved();
     let pose = Transform::from_parts(Vector3::z(), UnitQuaternion::identity());
     for (towards_camera, seen) in [(-Vector3::z(), true), (Vector3::z(), false)] {
         let arm = plane(towards_camera);

@@ -29,7 +29,7 @@ pub fn refine(
 ) -> Refinement {
     let clusters = clusters(views);
     let mut gathered = vec![ViewFactors::default(); views.len()];
-    let mut state = State::new(start.camera_from_base, start.joint_offsets);
+    let mut state = State::from(*start);
     let mut scales = KINDS.map(|kind| kind.first_scale(options.reach));
     let mut ending =
         Ending { iterations: 0, last_step: Vector6::zeros(), stop: StopReason::IterationLimit };

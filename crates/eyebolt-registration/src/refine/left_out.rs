@@ -22,8 +22,7 @@ pub struct LeftOut {
 impl LeftOut {
     /// The pose and the joint offsets there.
     pub fn first_step(&self) -> Start {
-        let State { camera_from_base, joint_offsets, .. } = self.state;
-        Start { camera_from_base, joint_offsets }
+        self.state.into()
     }
 }
 

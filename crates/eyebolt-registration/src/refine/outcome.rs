@@ -87,7 +87,8 @@ pub struct Refinement {
 impl Refinement {
     /// From where another refinement would go on.
     pub fn end(&self) -> Start {
-        Start { camera_from_base: self.camera_from_base, joint_offsets: self.joint_offsets }
+        let Self { camera_from_base, joint_offsets, nuisances, .. } = *self;
+        Start { camera_from_base, joint_offsets, nuisances }
     }
 
     /// Relative error of the depth's scale: true depth is `1 + this` times the depth seen.

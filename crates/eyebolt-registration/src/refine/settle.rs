@@ -46,5 +46,5 @@ pub fn settle(
         };
         end = end.stepped(&step);
     }
-    Start { camera_from_base: end.camera_from_base, joint_offsets: end.joint_offsets }
+    end.into()
 }

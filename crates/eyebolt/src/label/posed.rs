@@ -28,7 +28,11 @@ impl Labeller for PosedModel {
         let one = |configuration: &Configuration| {
             let (arm, rays) = (&observations.arm, &observations.rays);
             let posture = configuration.posture.moved(arm, &self.at.joint_offsets);
-            let view = View { posture: &posture, ..observations.view(configuration) };
+            let view = View {
+                posture: &posture,
+                depth_factor: self.at.depth_factor(),
+                ..observations.view(configuration)
+            };
             let pose = &self.at.camera_from_base;
             let labels = labels_at(arm, &view, rays, &mut Raster::new(view.camera), pose);
             with_end_effector(labels, arm, &view, rays, pose)
@@ -49,7 +53,7 @@ fn with_end_effector(
     let width = view.depth.width() as usize;
     let mut last = 0;
     labels.mapped(|u, v, label| {
-        let z = view.depth.depth_m()[v * width + u];
+        let z = view.depth_m(v * width + u);
         if label != Label::Arm || z <= 0.0 {
             return label;
         }
@@ -116,13 +120,12 @@ fn surface_distances(
     let pose = base_from_camera.isometry().cast::<f32>();
     let rotation = pose.rotation.to_rotation_matrix();
     let width = view.depth.width() as usize;
-    let depth = view.depth.depth_m();
     let mut last = 0;
     let mut distances = Vec::with_capacity(columns.len() * rows.len());
     for v in rows.clone() {
         for u in columns.clone() {
             let at = v * width + u;
-            let z = depth[at];
+            let z = view.depth_m(at);
             if z <= 0.0 {
                 distances.push(f32::NAN);
                 continue;
@@ -154,7 +157,7 @@ fn with_mask(
             return Label::Arm;
         }
         let at = (v - first_v) * width + (u - first_u);
-        let seen = view.depth.at(u as u32, v as u32);
+        let seen = view.depth_m(v * raster.width() + u);
         let model = raster.depth_m(v * raster.width() + u);
         let hidden = model.is_some_and(|z| seen > 0.0 && seen < z - Margin::Search.at_m(z));
         let disputed = to_mask[at] > MASK_EDGE_PX && distance[at] < Margin::Label.at_m(seen);
@@ -172,7 +175,7 @@ fn without_mask(
     let (first_u, first_v) = (columns.start, rows.start);
     let index = |u: usize, v: usize| (v - first_v) * width + (u - first_u);
     let close = Labels::from_fn(columns.clone(), rows.clone(), |u, v| {
-        let z = view.depth.at(u as u32, v as u32);
+        let z = view.depth_m(v * view.depth.width() as usize + u);
         match distance[index(u, v)] {
             d if d < Margin::Label.at_m(z) => Label::Arm,
             d if d < Margin::Beside.at_m(z) => Label::Ignore,
@@ -190,7 +193,7 @@ fn without_mask(
 }
 
 /// Points seen on the arm clear of its outline, about `wanted` of them on a regular grid of
-/// pixels, camera frame, and how many pixels each stands for.
+/// pixels, camera frame, as seen (no factor of the depth applied), and how many pixels each stands for.
 pub fn arm_points(
     labels: &Labels,
     view: &View<'_>,

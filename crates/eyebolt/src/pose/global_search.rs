@@ -1,5 +1,6 @@
 //! A pose from nothing: hypotheses that explain the arm's pixels by kinematics alone.
 
+use super::patches::middles;
 use super::proposer::{Hypothesis, PoseProposer};
 use crate::evenly::evenly;
 use crate::observations::{Configuration, Observations};
@@ -50,11 +51,13 @@ impl PoseProposer for GlobalSearch {
             .into_par_iter()
             .filter_map(|index| {
                 let (configuration, mask) = (&observations.configurations[index], &masks[index]);
-                let arm_points = points(observations, configuration, &mask.eroded(RIM_PX));
+                let mask = mask.eroded(RIM_PX);
+                let arm_points = points(observations, configuration, &mask);
+                let middles = middles(observations, configuration, &mask);
                 let surface = surface(observations, configuration, whole);
                 let view = observations.view(configuration);
                 let enough = arm_points.len() >= least && !surface.is_empty();
-                enough.then_some(SearchView { view, arm_points, surface })
+                enough.then_some(SearchView { view, arm_points, middles, surface })
             })
             .collect();
         let found = search(&observations.arm, &views, self.seed, self.wanted);

@@ -9,6 +9,7 @@ use super::projection::{Projection, find};
 use super::reader::{Reader, first_frame};
 use super::shapes::shapes;
 use super::spread::most_spread;
+use crate::depth_noise::DepthNoise;
 use crate::joint_limits::WorstOutside;
 use crate::observations::{Configuration, Observations};
 use eyebolt_geometry::{Base, Link, RayTable, Transform};
@@ -56,6 +57,8 @@ pub fn observe(
     let configurations: Vec<Result<_, RecordError>> = configurations.collect();
     let configurations = configurations.into_iter().collect::<Result<Vec<_>, _>>()?;
     let background = background::read(source, &projection, &configurations)?;
+    let images: Vec<_> = configurations.iter().map(|c| &c.depth).collect();
+    let noise = DepthNoise::learn(&images);
     let Projection { camera, optical_from_camera, source: image_source } = projection;
     Ok(Observations {
         camera,
@@ -64,6 +67,7 @@ pub fn observe(
         source: image_source,
         configurations,
         background,
+        noise,
         assumed_joints: first.first.assumed_joints.clone(),
         outside_limits: outside.of_arm(arm),
         spare_configurations: groups.len() - chosen.len(),

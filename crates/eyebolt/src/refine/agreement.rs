@@ -1,5 +1,7 @@
 //! How well a pose explains what was seen, counted in pixels.
 
+use super::known_background::KnownBackground;
+use super::pixels::{PixelCounts, count_pixels};
 use crate::observations::Observations;
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
 use eyebolt_registration::{Margin, View};
@@ -9,12 +11,8 @@ use rayon::prelude::*;
 /// Pixels of one configuration, counted by what they say of a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Agreement {
-    /// Pixels of the posed arm where something was seen at its depth.
-    pub agree: usize,
-    /// Pixels of the posed arm that the camera saw through, or that lie outside the mask.
-    pub contradict: usize,
-    /// Pixels of the posed arm where nothing can be said: hidden, or without depth.
-    pub unknown: usize,
+    /// Pixels of the posed arm.
+    pub pixels: PixelCounts,
     /// Pixels known to be the arm that lie on the posed arm's surface, of those looked at: every other
     /// one of every other row.
     pub explained: usize,
@@ -32,13 +30,13 @@ const STRIDE: usize = 2;
 impl Agreement {
     /// Whether anything of the posed arm could be judged at all.
     pub fn is_in_view(&self) -> bool {
-        self.agree + self.contradict > 0
+        self.pixels.judged() > 0
     }
 
     /// Share of the posed arm's pixels that are contradicted, of those that can be judged; all if
     /// none can.
     pub fn contradicted_share(&self) -> f64 {
-        share(self.contradict, self.agree)
+        self.pixels.contradicted_share()
     }
 
     /// Share of the arm's pixels that the posed arm does not explain.
@@ -54,10 +52,10 @@ impl Agreement {
 
     /// All counts added up.
     pub fn plus(&self, other: &Self) -> Self {
+        let mut pixels = self.pixels;
+        pixels.add(&other.pixels);
         Self {
-            agree: self.agree + other.agree,
-            contradict: self.contradict + other.contradict,
-            unknown: self.unknown + other.unknown,
+            pixels,
             explained: self.explained + other.explained,
             unexplained: self.unexplained + other.unexplained,
             overlap: self.overlap + other.overlap,
@@ -74,18 +72,24 @@ fn share(part: usize, rest: usize) -> f64 {
 }
 
 /// The agreement of each of `views` with the arm posed at `camera_from_base`, `masks` saying which
-/// pixels are the arm.
+/// pixels are the arm; and what the pixels of each link say.
 pub fn agreement(
     observations: &Observations,
     views: &[View<'_>],
     masks: &[&Mask],
     rasters: &mut [Raster],
     camera_from_base: &Transform<Camera, Base>,
-) -> Vec<Agreement> {
-    let work = views.par_iter().zip(masks).zip(rasters.par_iter_mut());
-    work.map(|((view, mask), raster)| {
+) -> Vec<(Agreement, Vec<PixelCounts>)> {
+    views.par_iter().zip(rasters.par_iter_mut()).for_each(|(view, raster)| {
         raster.draw(view.camera, &view.posture.meshes(&observations.arm, camera_from_base));
-        let mut counts = model_pixels(view, raster);
+    });
+    let background = KnownBackground::new(observations, views, rasters);
+    let work = views.par_iter().zip(masks).zip(rasters.par_iter()).enumerate();
+    work.map(|(own, ((view, mask), raster))| {
+        let by_link = count_pixels(observations, view, raster, &background, own);
+        let mut pixels = PixelCounts::default();
+        by_link.iter().for_each(|link| pixels.add(link));
+        let mut counts = Agreement { pixels, ..Agreement::default() };
         (counts.explained, counts.unexplained) =
             arm_pixels(observations, view, mask, camera_from_base);
         if let Some(mask) = view.mask {
@@ -93,29 +97,9 @@ pub fn agreement(
             counts.overlap = raster.pixels().filter(|at| mask.as_slice()[*at]).count();
             counts.union = drawn + mask.count() - counts.overlap;
         }
-        counts
+        (counts, by_link)
     })
     .collect()
-}
-
-fn model_pixels(view: &View<'_>, raster: &Raster) -> Agreement {
-    let mut counts = Agreement::default();
-    for at in raster.pixels() {
-        let Some(z) = raster.depth_m(at) else { continue };
-        let seen = view.depth.depth_m()[at];
-        if seen > 0.0 && seen < z - Margin::Refined.at_m(z) {
-            counts.unknown += 1;
-        } else if view.mask.is_some_and(|mask| !mask.as_slice()[at]) {
-            counts.contradict += 1;
-        } else if seen <= 0.0 {
-            counts.unknown += 1;
-        } else if seen > z + Margin::Refined.at_m(z) {
-            counts.contradict += 1;
-        } else {
-            counts.agree += 1;
-        }
-    }
-    counts
 }
 
 fn arm_pixels(
@@ -130,7 +114,7 @@ fn arm_pixels(
     for v in (0..height).step_by(STRIDE) {
         for u in (0..width).step_by(STRIDE) {
             let at = v * width + u;
-            let z = view.depth.depth_m()[at];
+            let z = view.depth_m(at);
             if !mask.as_slice()[at] || z <= 0.0 {
                 continue;
             }

@@ -52,7 +52,7 @@ pub fn observe_one<'a>(
 ) -> (RefineView<'a>, Labels) {
     let (arm, rays) = (&observations.arm, &observations.rays);
     let posture = &view.posture.moved(arm, &start.joint_offsets);
-    let posed = View { posture, ..*view };
+    let posed = View { posture, depth_factor: start.depth_factor(), ..*view };
     let labels = labels_at(arm, &posed, rays, raster, &start.camera_from_base);
     let ((arm_points, pixels_per_point), silhouette) =
         rayon::join(|| arm_points(&labels, view, rays, POINTS), || Silhouette::new(&labels));

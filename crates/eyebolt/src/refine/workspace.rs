@@ -2,7 +2,8 @@
 
 use super::agreement::{Agreement, agreement};
 use super::configuration::{ConfigurationOutcome, Dropped};
-use super::links::misplaced_links;
+use super::pixels::PixelCounts;
+use super::links::misplaced_link;
 use super::rounds::{CLOSING, refine};
 use crate::observations::Observations;
 use eyebolt_geometry::Mask;
@@ -57,12 +58,10 @@ impl<'a, 'm> Workspace<'a, 'm> {
         refinement: &Refinement,
         outcomes: &mut [ConfigurationOutcome],
     ) -> usize {
-        let postures = self.postures(&refinement.end());
-        let (views, pose) = (with_postures(&self.views, &postures), &refinement.camera_from_base);
-        let found = misplaced_links(self.observations, &views, &mut self.rasters, pose);
+        let found = self.pixels(&refinement.end());
         let mut count = 0;
-        for (index, misplaced) in self.indices.iter().zip(found) {
-            if let Some(misplaced) = misplaced {
+        for (index, (_, by_link)) in self.indices.iter().zip(&found) {
+            if let Some(misplaced) = misplaced_link(self.observations, by_link) {
                 tracing::debug!(configuration = index, ?misplaced, "a link is seen through");
                 outcomes[*index].dropped = Some(Dropped::Misplaced(misplaced));
                 count += 1;
@@ -78,8 +77,14 @@ impl<'a, 'm> Workspace<'a, 'm> {
     }
 
     pub(crate) fn agreement(&mut self, at: &Start) -> Vec<Agreement> {
+        self.pixels(at).into_iter().map(|(agreement, _)| agreement).collect()
+    }
+
+    /// What the pixels of each view say of the arm at `at`, together and of each link.
+    fn pixels(&mut self, at: &Start) -> Vec<(Agreement, Vec<PixelCounts>)> {
         let postures = self.postures(at);
-        let (views, pose) = (with_postures(&self.views, &postures), &at.camera_from_base);
+        let views = with_postures(&self.views, &postures, at.depth_factor());
+        let pose = &at.camera_from_base;
         agreement(self.observations, &views, &self.masks, &mut self.rasters, pose)
     }
 
@@ -88,6 +93,13 @@ impl<'a, 'm> Workspace<'a, 'm> {
         refinement: &Refinement,
         outcomes: &mut [ConfigurationOutcome],
     ) {
+        let pixels = self.pixels(&refinement.end());
+        if std::env::var_os("EYEBOLT_DEBUG").is_some() {
+            for (view, (_, by_link)) in pixels.iter().enumerate() {
+                let shown: Vec<String> = by_link.iter().map(|c| format!("[{} a{} c{} u{}]", c.agree, c.ambiguous, c.contradict, c.unknown)).collect();
+                println!("   view {view} {}", shown.join(" "));
+            }
+        }
         let agreement = self.agreement(&refinement.end());
         for ((index, fit), agreement) in self.indices.iter().zip(&refinement.views).zip(agreement) {
             outcomes[*index].residual_m = fit.surface_m();
@@ -96,6 +108,11 @@ impl<'a, 'm> Workspace<'a, 'm> {
     }
 }
 
-fn with_postures<'b>(views: &[View<'b>], postures: &'b [Posture]) -> Vec<View<'b>> {
-    views.iter().zip(postures).map(|(view, posture)| View { posture, ..*view }).collect()
+fn with_postures<'b>(
+    views: &[View<'b>],
+    postures: &'b [Posture],
+    depth_factor: f32,
+) -> Vec<View<'b>> {
+    let pairs = views.iter().zip(postures);
+    pairs.map(|(view, posture)| View { posture, depth_factor, ..*view }).collect()
 }
