@@ -47,7 +47,9 @@ impl DepthNoise {
                 differences[bin(nearer)].push(difference);
             }
         }
-        let mut by_bin: Vec<Option<f32>> = differences.into_iter().map(deviation).collect();
+        let limit = largest(&differences);
+        let of_bin = |differences| deviation(differences).map(|share| share.min(limit));
+        let mut by_bin: Vec<Option<f32>> = differences.into_iter().map(of_bin).collect();
         // From the near to the far, then the other way for what lies before the first.
         for bin in 1..BINS {
             by_bin[bin] = by_bin[bin].or(by_bin[bin - 1]);
@@ -102,6 +104,18 @@ fn bin(depth_m: f32) -> usize {
     ((depth_m / NEAREST_M).ln() / RATIO.ln()).clamp(0.0, (BINS - 1) as f32) as usize
 }
 
+/// At some depths there may be nothing but the arm, which moves: no bin has more noise than this many
+/// times that of all together, nor than this share of the squared depth (1/m), a disparity off by more
+/// than two pixels of most stereo cameras.
+const LARGEST_RATIO: f32 = 3.0;
+const LARGEST_SHARE: f32 = 0.05;
+
+/// The largest deviation that a bin is taken to have.
+fn largest(differences: &[Vec<f32>]) -> f32 {
+    let all = differences.iter().flatten().copied().collect();
+    deviation(all).map_or(LARGEST_SHARE, |all| (LARGEST_RATIO * all).min(LARGEST_SHARE))
+}
+
 /// Standard deviation that `differences` show; `None` of too few.
 fn deviation(mut differences: Vec<f32>) -> Option<f32> {
     if differences.len() < LEAST_SAMPLES {
@@ -140,6 +154,21 @@ mod tests {
             let ratio = f64::from(noise.deviation_m(depth_m as f32)) / deviation_m;
             assert!((0.8..2.5).contains(&ratio), "{ratio}");
         }
+    }
+
+    /// Nothing but what moves is near, before a wall.
+    #[test]
+    fn depths_at_which_all_moves_tell_nothing() {
+        let image = |at: usize| {
+            let pixels = (0..(WIDTH * HEIGHT) as usize).map(|pixel| {
+                let near = pixel * 4 / (WIDTH * HEIGHT) as usize == at;
+                if near { 0.8 + 0.1 * at as f32 } else { 2.0 }
+            });
+            DepthImage::new(WIDTH, HEIGHT, pixels.collect()).unwrap()
+        };
+        let images: Vec<DepthImage> = (0..3).map(image).collect();
+        let noise = DepthNoise::learn(&images.iter().collect::<Vec<_>>());
+        assert_eq!(noise.margin_m(Margin::Moved, 0.9), Margin::Moved.at_m(0.9));
     }
 
     #[test]
