@@ -10,6 +10,7 @@ mod distance_build;
 mod distance_field;
 mod evidence;
 mod image_distance;
+mod intrinsics_offset;
 mod link_model;
 mod normal_equations;
 mod outward;
@@ -30,10 +31,11 @@ pub use cache::LinkCache;
 pub use depth_margin::Margin;
 pub use distance_field::{DistanceField, DistanceSample};
 pub use evidence::{Presentation, Reach, presentation};
+pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    Fit, JointPrior, LeftOut, RefineOptions, RefineView, Refinement, Residual, Start, StopReason,
+    Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual, Start, StopReason,
     Trust, ViewFit, refine, residuals, settle,
 };
 pub use robust::median;

@@ -112,9 +112,9 @@ impl Session<'_> {
             let degrees = |rad: &[f64]| {
                 rad.iter().map(|rad| format!("{:.2}", rad.to_degrees())).collect::<Vec<_>>().join(" ")
             };
-            println!("    nuisances {:?}", refinement.nuisances);
+            println!("    nuisances {:?} {:?}", refinement.nuisances, refinement.intrinsics);
             println!("    joint offsets {}", degrees(&refinement.joint_offsets.rad));
-            println!("    joint prior   {}", degrees(&refinement.joint_prior_rad));
+            println!("    joint prior   {}", degrees(&refinement.offset_prior.joints_rad));
         }
         for outcome in &found.configurations {
             println!("    {outcome:?}");

@@ -4,8 +4,9 @@
 
 use super::kind::{EvidenceKind, Factor, Presentation, Reach};
 use super::posed::{PosedArm, PosedView, moved_by_base};
+use crate::intrinsics_offset::INTRINSICS;
 use crate::silhouette::Silhouette;
-use crate::unknowns::{FIRST_NUISANCE, OUTLINES, Unknowns};
+use crate::unknowns::{FIRST_INTRINSIC, FIRST_NUISANCE, OUTLINES, Unknowns};
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_render::{ContourPoint, outer_contour};
 
@@ -75,18 +76,29 @@ pub(super) fn outline_factor(
     silhouette: &Silhouette,
     contour: &ContourPoint,
 ) -> Option<Factor> {
-    let (distance, gradient) = silhouette.sample(&contour.pixel)?;
+    let point = contour.point_in_camera.cast::<f64>();
+    // The arm is drawn as the stated camera sees it: the true one sees this point elsewhere.
+    let to_stated = posed.state.intrinsics.stated_from_true();
+    let stated = to_stated * point;
+    let (there, by_stated) = camera.project_with_jacobian(&stated)?;
+    let moved = there - camera.project(&point)?;
+    let (distance, gradient) = silhouette.sample(&(contour.pixel + moved.cast::<f32>()))?;
     if gradient.dot(&contour.outward) < 0.5 {
         return None;
     }
-    let point = contour.point_in_camera.cast::<f64>();
-    let (_, by_point) = camera.project_with_jacobian(&point)?;
-    let along = by_point.tr_mul(&gradient.cast::<f64>());
+    let by_stated = by_stated.tr_mul(&gradient.cast::<f64>());
+    let along = to_stated.tr_mul(&by_stated);
     let pose = posed.state.camera_from_base.isometry();
     let origin = pose.translation.vector;
     let mut jacobian = Unknowns::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&moved_by_base(&along, &point.coords, &origin));
     jacobian[FIRST_NUISANCE + OUTLINES] = 1.0;
+    let by_intrinsics = [
+        by_stated.x * point.x + by_stated.y * point.y,
+        by_stated.x * point.z,
+        by_stated.y * point.z,
+    ];
+    jacobian.fixed_rows_mut::<INTRINSICS>(FIRST_INTRINSIC).copy_from_slice(&by_intrinsics);
     let link = contour.link as usize;
     let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
     posed.by_joints(link, &along, &at, &mut jacobian);

@@ -5,7 +5,8 @@
 
 use super::kind::{EvidenceKind, Factor, Presentation, Reach};
 use super::posed::{PosedArm, PosedView, moved_by_base};
-use crate::unknowns::{FIRST_NUISANCE, SURFACES, Unknowns};
+use crate::intrinsics_offset::INTRINSICS;
+use crate::unknowns::{FIRST_INTRINSIC, FIRST_NUISANCE, SURFACES, Unknowns};
 use nalgebra::Point3;
 
 /// Residuals in metres.
@@ -46,7 +47,7 @@ impl EvidenceKind for Surfaces {
 
     /// Depth of cameras is long or short by one to two percent.
     fn nuisance_deviation(&self) -> f64 {
-        0.015
+        0.02
     }
 
     fn needs_drawing(&self) -> bool {
@@ -75,7 +76,8 @@ pub(super) fn surface_factor(
 ) -> Option<Factor> {
     let PosedArm { arm, posture, state } = posed;
     let seen = point_in_camera.coords.cast::<f64>();
-    let point = seen * (1.0 + state.nuisances[SURFACES]);
+    let as_stated = seen * (1.0 + state.nuisances[SURFACES]);
+    let point = state.intrinsics.true_point(&as_stated.into()).coords;
     let pose = state.camera_from_base.isometry();
     let point_in_base: Point3<f32> = pose.inverse_transform_point(&Point3::from(point)).cast();
     let nearest = posture.nearest_within(arm, &point_in_base, f32::INFINITY, first)?;
@@ -88,7 +90,14 @@ pub(super) fn surface_factor(
     let by_base = moved_by_base(&-normal, &point, &pose.translation.vector);
     let mut jacobian = Unknowns::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
-    jacobian[FIRST_NUISANCE + SURFACES] = normal.dot(&seen);
+    jacobian[FIRST_NUISANCE + SURFACES] = normal.dot(&point) / (1.0 + state.nuisances[SURFACES]);
+    let focal = 1.0 + state.intrinsics.focal;
+    let by_intrinsics = [
+        -(normal.x * point.x + normal.y * point.y) / focal,
+        -normal.x * point.z / focal,
+        -normal.y * point.z / focal,
+    ];
+    jacobian.fixed_rows_mut::<INTRINSICS>(FIRST_INTRINSIC).copy_from_slice(&by_intrinsics);
     posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
     Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
 }

@@ -5,6 +5,7 @@ use super::outlines::outline_factor;
 use super::surfaces::surface_factor;
 use crate::arm::{ArmJoint, ArmLink, ArmModel, JointAxis, JointOffsets, Posture};
 use crate::distance_field::DistanceField;
+use crate::intrinsics_offset::IntrinsicsOffset;
 use crate::link_model::LinkModel;
 use crate::silhouette::{Label, Labels, Silhouette};
 use crate::unknowns::{EVIDENCE_KINDS, OUTLINES, SURFACES, State, Unknowns};
@@ -27,14 +28,18 @@ fn vector(limit: f64) -> impl Strategy<Value = Vector3<f64>> {
 
 fn unmoved() -> State {
     let (camera_from_base, joint_offsets) = (Transform::identity(), JointOffsets::default());
-    State { camera_from_base, nuisances: [0.0; EVIDENCE_KINDS], joint_offsets }
+    let (nuisances, intrinsics) = ([0.0; EVIDENCE_KINDS], IntrinsicsOffset::default());
+    State { camera_from_base, nuisances, joint_offsets, intrinsics }
 }
 
 fn state() -> impl Strategy<Value = State> {
-    (vector(1.5), vector(1.8), -0.02..0.02_f64, -2.0..2.0_f64).prop_map(|(t, r, scale, px)| {
+    let intrinsics = [-0.03..0.03_f64, -0.01..0.01, -0.01..0.01];
+    let unknowns = (vector(1.5), vector(1.8), -0.02..0.02_f64, -2.0..2.0_f64, intrinsics);
+    unknowns.prop_map(|(t, r, scale, px, intrinsics)| {
         let camera_from_base = Transform::from_parts(t, UnitQuaternion::new(r));
         let joint_offsets = JointOffsets::default();
-        State { camera_from_base, nuisances: [scale, px], joint_offsets }
+        let intrinsics = IntrinsicsOffset::from_numbers(intrinsics);
+        State { camera_from_base, nuisances: [scale, px], joint_offsets, intrinsics }
     })
 }
 
@@ -95,7 +100,8 @@ proptest! {
         let normal_in_camera = normal * -cosine.signum();
         let rotation = UnitQuaternion::new(link_turn);
         let base_from_camera = state.camera_from_base.inverse();
-        let point = Point3::from(seen * (1.0 + state.nuisances[SURFACES]));
+        let point = seen * (1.0 + state.nuisances[SURFACES]);
+        let point = state.intrinsics.true_point(&point.into());
         let origin = base_from_camera.point(&point).coords - rotation * in_link;
         let base_from_link = Transform::<Base, Link>::from_parts(origin, rotation);
         let normal = rotation.inverse() * base_from_camera.direction(&normal_in_camera);

@@ -1,8 +1,8 @@
 //! How uncertain the unknowns are: ARCHITECTURE.md, (8).
 
 use super::priors::priors;
+use super::start::OffsetDeviations;
 use super::system::{Sum, System};
-use crate::arm::MOST_JOINTS;
 use crate::unknowns::{State, UNKNOWNS, Unknowns};
 use nalgebra::SMatrix;
 
@@ -29,7 +29,7 @@ pub(super) fn sandwich(
     system: &System<'_>,
     total: &Sum,
     state: &State,
-    joint_prior_rad: &[f64; MOST_JOINTS],
+    deviations: &OffsetDeviations,
     step: &Unknowns,
 ) -> Option<Covariance> {
     if !determines_all(&total.information) {
@@ -41,7 +41,7 @@ pub(super) fn sandwich(
         let score = cluster.gradient + cluster.information * step;
         filling += score * score.transpose();
     }
-    for prior in priors(state, joint_prior_rad) {
+    for prior in priors(state, deviations) {
         filling[(prior.unknown, prior.unknown)] += prior.deviation.powi(-2);
     }
     let covariance = bread * filling * bread;

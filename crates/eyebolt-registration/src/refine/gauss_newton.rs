@@ -2,13 +2,13 @@
 
 use super::clusters::{Cluster, clusters};
 use super::gather::{ViewFactors, deviations, gather};
-use super::joint_prior;
+use super::offset_prior;
 use super::outcome::{Refinement, StopReason};
 use super::priors::with_priors;
-use super::start::{JointPrior, RefineOptions, RefineView, Start};
+use super::start::{OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Start};
 use super::summary::{Ending, summarise};
 use super::system::{Matrix, System, Weights};
-use crate::arm::{ArmModel, MOST_JOINTS};
+use crate::arm::ArmModel;
 use crate::evidence::KINDS;
 use crate::unknowns::{EVIDENCE_KINDS, POSE, State, Unknowns};
 use eyebolt_render::Raster;
@@ -38,8 +38,8 @@ pub fn refine(
         ending.iterations += 1;
         let weights = weights(&gathered, &scales, options);
         let system = System::new(&gathered, &clusters, &weights, Matrix::Reweighted);
-        let joint_prior = joint_prior_rad(arm, &system, &state, options);
-        let Some(step) = with_priors(system.total(), &state, &joint_prior).solve(1e-6) else {
+        let deviations = offset_deviations(arm, &system, &state, options);
+        let Some(step) = with_priors(system.total(), &state, &deviations).solve(1e-6) else {
             ending.stop = StopReason::Underdetermined;
             break;
         };
@@ -84,8 +84,8 @@ fn finish(
     let weights = weights(gathered, scales, options);
     let system = System::new(gathered, clusters, &weights, Matrix::Reweighted);
     let curved = System::new(gathered, clusters, &weights, Matrix::Curvature);
-    let joint_prior = joint_prior_rad(arm, &system, state, options);
-    summarise(gathered, &system, &curved, &weights, state, &joint_prior, ending)
+    let deviations = offset_deviations(arm, &system, state, options);
+    summarise(gathered, &system, &curved, &weights, state, &deviations, ending)
 }
 
 fn weights(
@@ -102,17 +102,17 @@ pub(super) fn final_scales(deviations: &[f64; EVIDENCE_KINDS]) -> [f64; EVIDENCE
     std::array::from_fn(|kind| 3.0 * deviations[kind].max(KINDS[kind].least_kernel_deviation()))
 }
 
-fn joint_prior_rad(
+fn offset_deviations(
     arm: &ArmModel,
     system: &System<'_>,
     state: &State,
     options: &RefineOptions,
-) -> [f64; MOST_JOINTS] {
-    match options.joint_prior {
-        JointPrior::Known { rad } => rad,
-        JointPrior::Estimated => {
+) -> OffsetDeviations {
+    match options.offset_prior {
+        OffsetPrior::Known(deviations) => deviations,
+        OffsetPrior::Estimated => {
             let gauge = |joint: usize| arm.joints().get(joint).is_some_and(|j| j.defines_base);
-            joint_prior::estimate(system, state, std::array::from_fn(gauge))
+            offset_prior::estimate(system, state, std::array::from_fn(gauge))
         }
     }
 }

@@ -2,9 +2,8 @@
 
 use super::covariance::determines_all;
 use super::priors::with_priors;
-use super::start::Start;
+use super::start::{OffsetDeviations, Start};
 use super::system::System;
-use crate::arm::MOST_JOINTS;
 use crate::unknowns::State;
 
 /// With more views than this, they are also left out in so many groups.
@@ -36,7 +35,7 @@ pub(super) fn without_each(
     system: &System<'_>,
     curved: &System<'_>,
     state: &State,
-    joint_prior_rad: &[f64; MOST_JOINTS],
+    deviations: &OffsetDeviations,
     views: usize,
 ) -> [Vec<LeftOut>; 2] {
     let totals = [curved.total(), system.total()];
@@ -44,7 +43,7 @@ pub(super) fn without_each(
     let without = |views: Vec<usize>| {
         let rest = |system: &System<'_>, number: usize| {
             let rest = system.total_without(&views, &totals[number], &clusters[number]);
-            with_priors(rest, state, joint_prior_rad)
+            with_priors(rest, state, deviations)
         };
         let reweighted = rest(system, 1);
         if !determines_all(&reweighted.information) {

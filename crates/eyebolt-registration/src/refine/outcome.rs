@@ -1,8 +1,9 @@
 //! What a refinement comes to.
 
 use super::left_out::LeftOut;
-use super::start::Start;
+use super::start::{OffsetDeviations, Start};
 use crate::arm::{JointOffsets, MOST_JOINTS};
+use crate::intrinsics_offset::IntrinsicsOffset;
 use crate::unknowns::{EVIDENCE_KINDS, OUTLINES, SURFACES};
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::{Matrix6, Vector6};
@@ -59,8 +60,10 @@ pub struct Refinement {
     /// Marginal standard deviation of each of them under a prior that is wide open, radians;
     /// infinite where nothing is determined.
     pub joint_sigma_rad: [f64; MOST_JOINTS],
-    /// Standard deviation of the prior of each of them that this came with, radians.
-    pub joint_prior_rad: [f64; MOST_JOINTS],
+    /// How far the true intrinsics are from those stated, as far as the data tell.
+    pub intrinsics: IntrinsicsOffset,
+    /// Standard deviations of the priors of the joints' and the intrinsics' offsets that this came with.
+    pub offset_prior: OffsetDeviations,
     /// The nuisance parameter of each kind of evidence.
     pub nuisances: [f64; EVIDENCE_KINDS],
     /// Information of translation (m) and rotation (rad), the other unknowns marginalised, as
@@ -87,8 +90,8 @@ pub struct Refinement {
 impl Refinement {
     /// From where another refinement would go on.
     pub fn end(&self) -> Start {
-        let Self { camera_from_base, joint_offsets, nuisances, .. } = *self;
-        Start { camera_from_base, joint_offsets, nuisances }
+        let Self { camera_from_base, joint_offsets, nuisances, intrinsics, .. } = *self;
+        Start { camera_from_base, joint_offsets, nuisances, intrinsics }
     }
 
     /// Relative error of the depth's scale: true depth is `1 + this` times the depth seen.

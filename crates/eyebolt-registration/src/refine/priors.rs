@@ -1,7 +1,7 @@
 //! Gaussian priors of the unknowns that have one: ARCHITECTURE.md, (6).
 
+use super::start::OffsetDeviations;
 use super::system::Sum;
-use crate::arm::MOST_JOINTS;
 use crate::evidence::KINDS;
 use crate::unknowns::{FIRST_JOINT, FIRST_NUISANCE, State, Unknowns};
 
@@ -15,7 +15,7 @@ pub(super) struct Prior {
 /// Which unknowns have a prior, and where they are in it.
 pub(super) fn priors(
     state: &State,
-    joint_prior_rad: &[f64; MOST_JOINTS],
+    deviations: &OffsetDeviations,
 ) -> impl Iterator<Item = Prior> {
     let nuisances = state.nuisances.into_iter().zip(KINDS).enumerate();
     let of_kind =
@@ -23,19 +23,21 @@ pub(super) fn priors(
             let deviation = evidence.nuisance_deviation();
             Prior { unknown: FIRST_NUISANCE + kind, value, deviation }
         };
-    let joints = state.joint_offsets.rad.into_iter().zip(*joint_prior_rad).enumerate();
-    let of_joint =
-        |(joint, (value, deviation))| Prior { unknown: FIRST_JOINT + joint, value, deviation };
-    nuisances.map(of_kind).chain(joints.map(of_joint))
+    let deviations = *deviations;
+    let offsets = state.offsets().into_iter().enumerate();
+    let of_offset = move |(offset, value)| {
+        Prior { unknown: FIRST_JOINT + offset, value, deviation: deviations.of(offset) }
+    };
+    nuisances.map(of_kind).chain(offsets.map(of_offset))
 }
 
 /// `sum` with the priors added.
 pub(super) fn with_priors(
     mut sum: Sum,
     state: &State,
-    joint_prior_rad: &[f64; MOST_JOINTS],
+    deviations: &OffsetDeviations,
 ) -> Sum {
-    for prior in priors(state, joint_prior_rad) {
+    for prior in priors(state, deviations) {
         sum.add(&Unknowns::ith(prior.unknown, 1.0), prior.value, prior.deviation.powi(-2));
     }
     sum

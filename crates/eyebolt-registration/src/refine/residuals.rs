@@ -25,11 +25,7 @@ pub fn residuals(
     raster: &mut Raster,
     refinement: &Refinement,
 ) -> [Vec<Residual>; EVIDENCE_KINDS] {
-    let state = State {
-        camera_from_base: refinement.camera_from_base,
-        nuisances: refinement.nuisances,
-        joint_offsets: refinement.joint_offsets,
-    };
+    let state = State::from(refinement.end());
     let mut gathered = ViewFactors::default();
     gather_one(arm, view, raster, &state, &mut gathered);
     let residual = |factor: &Factor| Residual { link: factor.link, value: factor.residual };

@@ -39,7 +39,7 @@ pub fn settle(
         let weights = Weights { scales, deviations, trust: Trust::All };
         let step = |matrix| {
             let system = System::new(&gathered, &clusters, &weights, matrix);
-            with_priors(system.total(), &end, &refinement.joint_prior_rad).solve(1e-6)
+            with_priors(system.total(), &end, &refinement.offset_prior).solve(1e-6)
         };
         let Some(step) = step(Matrix::Curvature).or_else(|| step(Matrix::Reweighted)) else {
             break;

@@ -2,6 +2,7 @@
 
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::evidence::Reach;
+use crate::intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 use crate::silhouette::Silhouette;
 use crate::unknowns::{EVIDENCE_KINDS, SURFACES, State};
 use crate::view::View;
@@ -30,8 +31,8 @@ pub struct RefineOptions {
     pub reach: Reach,
     /// Which kinds of evidence count.
     pub trust: Trust,
-    /// How far off joints may be.
-    pub joint_prior: JointPrior,
+    /// How far off joints and intrinsics may be.
+    pub offset_prior: OffsetPrior,
 }
 
 /// Which kinds of evidence count: all as much as their residuals deserve, or all but one hardly at
@@ -44,17 +45,42 @@ pub enum Trust {
     Only(usize),
 }
 
-/// What is known beforehand of how far off joints are.
+/// Standard deviations of the priors of what the recording says and may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum JointPrior {
+pub struct OffsetDeviations {
+    /// Of each joint's offset, radians.
+    pub joints_rad: [f64; MOST_JOINTS],
+    /// Of the relative error of the focal lengths and of where the principal point is, in focal lengths.
+    pub intrinsics: [f64; INTRINSICS],
+}
+
+/// What is known beforehand of how far off joints and intrinsics are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OffsetPrior {
     /// Each by this standard deviation.
-    Known {
-        /// The deviations, radians.
-        rad: [f64; MOST_JOINTS],
-    },
-    /// All by the same deviation, which the data tell, but for joints that stand out (empirical
-    /// Bayes).
+    Known(OffsetDeviations),
+    /// Joints all by the same deviation, which the data tell, but for those that stand out; intrinsics
+    /// hardly, unless they stand out (empirical Bayes).
     Estimated,
+}
+
+impl OffsetDeviations {
+    /// All as good as zero: what the recording says is taken at its word.
+    pub const NONE: Self = Self { joints_rad: [1e-5; MOST_JOINTS], intrinsics: [1e-6; INTRINSICS] };
+
+    pub(crate) fn of(&self, offset: usize) -> f64 {
+        match offset.checked_sub(MOST_JOINTS) {
+            None => self.joints_rad[offset],
+            Some(offset) => self.intrinsics[offset],
+        }
+    }
+
+    pub(crate) fn from_fn(mut deviation: impl FnMut(usize) -> f64) -> Self {
+        Self {
+            joints_rad: std::array::from_fn(&mut deviation),
+            intrinsics: std::array::from_fn(|i| deviation(MOST_JOINTS + i)),
+        }
+    }
 }
 
 /// Where a refinement begins.
@@ -66,6 +92,8 @@ pub struct Start {
     pub joint_offsets: JointOffsets,
     /// The nuisance parameter of each kind of evidence, in its unit.
     pub nuisances: [f64; EVIDENCE_KINDS],
+    /// How far the true intrinsics are from those stated.
+    pub intrinsics: IntrinsicsOffset,
 }
 
 impl Start {
@@ -77,22 +105,22 @@ impl Start {
 
 impl From<State> for Start {
     fn from(state: State) -> Self {
-        let State { camera_from_base, nuisances, joint_offsets } = state;
-        Self { camera_from_base, joint_offsets, nuisances }
+        let State { camera_from_base, nuisances, joint_offsets, intrinsics } = state;
+        Self { camera_from_base, joint_offsets, nuisances, intrinsics }
     }
 }
 
 impl From<Start> for State {
     fn from(start: Start) -> Self {
-        let Start { camera_from_base, joint_offsets, nuisances } = start;
-        Self { camera_from_base, nuisances, joint_offsets }
+        let Start { camera_from_base, joint_offsets, nuisances, intrinsics } = start;
+        Self { camera_from_base, nuisances, joint_offsets, intrinsics }
     }
 }
 
 impl From<Transform<Camera, Base>> for Start {
     /// At a pose, with every joint where it says and nothing else known to be off.
     fn from(camera_from_base: Transform<Camera, Base>) -> Self {
-        let joint_offsets = JointOffsets::default();
-        Self { camera_from_base, joint_offsets, nuisances: [0.0; EVIDENCE_KINDS] }
+        let (joint_offsets, intrinsics) = (JointOffsets::default(), IntrinsicsOffset::default());
+        Self { camera_from_base, joint_offsets, nuisances: [0.0; EVIDENCE_KINDS], intrinsics }
     }
 }

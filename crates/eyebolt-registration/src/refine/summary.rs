@@ -2,10 +2,11 @@
 
 use super::covariance::sandwich;
 use super::gather::ViewFactors;
-use super::joint_prior::under_open_prior;
+use super::offset_prior::under_open_prior;
 use super::left_out::without_each;
 use super::outcome::{Fit, Refinement, StopReason, ViewFit};
 use super::priors::with_priors;
+use super::start::OffsetDeviations;
 use super::system::{System, Weights};
 use crate::arm::MOST_JOINTS;
 use crate::robust::median;
@@ -27,27 +28,28 @@ pub(super) fn summarise(
     curved: &System<'_>,
     weights: &Weights,
     state: &State,
-    joint_prior_rad: &[f64; MOST_JOINTS],
+    deviations: &OffsetDeviations,
     ending: Ending,
 ) -> Refinement {
-    let sum = with_priors(system.total(), state, joint_prior_rad);
-    let all = sandwich(system, &sum, state, joint_prior_rad, &Unknowns::zeros());
+    let sum = with_priors(system.total(), state, deviations);
+    let all = sandwich(system, &sum, state, deviations, &Unknowns::zeros());
     let covariance = all.map(|all| all.fixed_view::<6, 6>(0, 0).into_owned());
     let inverse = sum.information.try_inverse();
     let information = inverse
         .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
         .unwrap_or_else(Matrix6::zeros);
     let [left_out, groups_left_out] =
-        without_each(system, curved, state, joint_prior_rad, gathered.len());
+        without_each(system, curved, state, deviations, gathered.len());
     let Ending { iterations, last_step, stop } = ending;
     Refinement {
         camera_from_base: state.camera_from_base,
         joint_offsets: state.joint_offsets,
         joint_sigma_rad: under_open_prior(system, state)
             .map_or([f64::INFINITY; MOST_JOINTS], |(_, covariance)| {
-                covariance.diagonal().map(f64::sqrt).into()
+                std::array::from_fn(|joint| covariance[(joint, joint)].sqrt())
             }),
-        joint_prior_rad: *joint_prior_rad,
+        intrinsics: state.intrinsics,
+        offset_prior: *deviations,
         nuisances: state.nuisances,
         information,
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),

@@ -96,8 +96,7 @@ pub(crate) fn estimate(
         sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, &without.parts))));
     }
     sources.push(match &one_kind {
-        // The answer lies between them, and any of them may be the best one.
-        Some(ends) => (ErrorSource::Disagreement, spread(&deltas(&pose, ends))),
+        Some(alone) => (ErrorSource::Disagreement, by_disagreement(refinement, alone)),
         None => {
             let variance = ONE_KIND_SIGMA.map(|sigma| sigma * sigma);
             (ErrorSource::OneKind, Matrix6::from_diagonal(&variance))
@@ -120,12 +119,12 @@ pub(crate) fn estimate(
         leave_one_out: without
             .as_ref()
             .map(|without| without.configurations.iter().map(|e| between(&end, e)).collect()),
-        disagreement: one_kind.as_ref().map(|ends| {
-            let pairs = ends
+        disagreement: one_kind.as_ref().map(|alone| {
+            let pairs = alone
                 .iter()
                 .enumerate()
-                .flat_map(|(i, a)| ends[i + 1..].iter().map(move |b| (a, b)));
-            let apart = pairs.map(|(a, b)| between(a, b));
+                .flat_map(|(i, a)| alone[i + 1..].iter().map(move |b| (a, b)));
+            let apart = pairs.map(|(a, b)| between(&a.end(), &b.end()));
             apart.fold(Deviation::default(), Deviation::larger)
         }),
         workspace_in_base,
@@ -135,6 +134,28 @@ pub(crate) fn estimate(
             one_kind.as_deref(),
         ),
     }
+}
+
+/// Covariance that the disagreement of single kinds of evidence lets one expect: that of the noise model,
+/// enlarged until the answers of the kinds agree with it (R. T. Birge, Physical Review 1932).
+///
+/// The directions in which a kind says nothing count nothing: there it may be anywhere.
+fn by_disagreement(refinement: &Refinement, alone: &[Refinement]) -> Matrix6<f64> {
+    let pose = &refinement.camera_from_base;
+    let all: Matrix6<f64> = alone.iter().map(|kind| kind.information).sum();
+    let sum: Vector6<f64> =
+        alone.iter().map(|kind| kind.information * pose.local(&kind.camera_from_base)).sum();
+    let nothing = Matrix6::from_element(f64::INFINITY);
+    let Some(mean) = all.cholesky().map(|all| all.solve(&sum)) else { return nothing };
+    let chi_square: f64 = alone
+        .iter()
+        .map(|kind| {
+            let from_mean = pose.local(&kind.camera_from_base) - mean;
+            from_mean.dot(&(kind.information * from_mean))
+        })
+        .sum();
+    let freedom = 6.0 * (alone.len() as f64 - 1.0);
+    refinement.information.try_inverse().map_or(nothing, |noise| noise * (chi_square / freedom))
 }
 
 /// Standard deviation of an answer from one kind of evidence alone, along each axis, m and rad: what
@@ -158,7 +179,7 @@ fn deltas(pose: &Transform<Camera, Base>, ends: &[Start]) -> Vec<Vector6<f64>> {
 fn joint_sigma(
     refinement: &Refinement,
     left_out: Option<&[Start]>,
-    one_kind: Option<&[Start]>,
+    one_kind: Option<&[Refinement]>,
 ) -> [f64; MOST_JOINTS] {
     let offsets = |ends: &[Start]| -> Vec<SVector<f64, MOST_JOINTS>> {
         ends.iter().map(|end| SVector::from(end.joint_offsets.rad)).collect()
@@ -167,8 +188,9 @@ fn joint_sigma(
     if let Some(ends) = left_out {
         variance += jackknife(&offsets(ends)).diagonal();
     }
-    if let Some(ends) = one_kind {
-        variance += spread(&offsets(ends)).diagonal();
+    if let Some(alone) = one_kind {
+        let ends: Vec<Start> = alone.iter().map(Refinement::end).collect();
+        variance += spread(&offsets(&ends)).diagonal();
     }
     variance.map(f64::sqrt).into()
 }

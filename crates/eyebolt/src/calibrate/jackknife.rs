@@ -2,7 +2,7 @@
 
 use crate::refine::{Workspace, again};
 use eyebolt_registration::{
-    JointPrior, LeftOut, RefineOptions, RefineView, Refinement, Start, settle,
+    LeftOut, OffsetPrior, RefineOptions, RefineView, Refinement, Start, settle,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -74,8 +74,8 @@ fn without(
     refinement: &Refinement,
     left_out: usize,
 ) -> Start {
-    let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
-    let options = RefineOptions { joint_prior, ..again(STEPS) };
+    let offset_prior = OffsetPrior::Known(refinement.offset_prior);
+    let options = RefineOptions { offset_prior, ..again(STEPS) };
     let kept = seen.iter().enumerate().filter(|(index, _)| *index != left_out);
     let kept: Vec<RefineView<'_>> = kept.map(|(_, view)| view.clone()).collect();
     let (arm, rasters) = (&work.observations.arm, &mut work.rasters[..kept.len()]);

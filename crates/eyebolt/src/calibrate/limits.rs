@@ -13,7 +13,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        let expected = Deviation { translation_m: 0.020, rotation_rad: 1.2f64.to_radians() };
+        let expected = Deviation { translation_m: 0.010, rotation_rad: 0.6f64.to_radians() };
         Self { configurations: 3, expected }
     }
 }

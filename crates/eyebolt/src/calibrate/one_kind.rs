@@ -3,7 +3,7 @@
 
 use crate::refine::{Workspace, again};
 use eyebolt_registration::{
-    EVIDENCE_KINDS, JointPrior, RefineOptions, RefineView, Refinement, Start, Trust,
+    EVIDENCE_KINDS, OffsetPrior, RefineOptions, RefineView, Refinement, Trust,
 };
 use eyebolt_render::Raster;
 use nalgebra::{SMatrix, SVector};
@@ -19,7 +19,7 @@ pub(super) fn one_kind_each(
     work: &mut Workspace<'_, '_>,
     seen: &[RefineView<'_>],
     refinement: &Refinement,
-) -> Option<Vec<Start>> {
+) -> Option<Vec<Refinement>> {
     let was_seen = |kind: &usize| refinement.views.iter().any(|v| v.fits[*kind].median.is_some());
     let kinds: Vec<usize> = (0..EVIDENCE_KINDS).filter(was_seen).collect();
     if kinds.len() < 2 {
@@ -30,9 +30,9 @@ pub(super) fn one_kind_each(
     rasters.resize_with(kinds.len(), || seen.iter().map(|_| Raster::new(camera)).collect());
     // Side by side, since a few views keep no more than a few cores busy.
     let alone = |(kind, rasters): (&usize, &mut Vec<Raster>)| {
-        let joint_prior = JointPrior::Known { rad: refinement.joint_prior_rad };
-        let options = RefineOptions { trust: Trust::Only(*kind), joint_prior, ..again(STEPS) };
-        eyebolt_registration::refine(arm, seen, rasters, &refinement.end(), &options).end()
+        let offset_prior = OffsetPrior::Known(refinement.offset_prior);
+        let options = RefineOptions { trust: Trust::Only(*kind), offset_prior, ..again(STEPS) };
+        eyebolt_registration::refine(arm, seen, rasters, &refinement.end(), &options)
     };
     let ends = kinds.par_iter().zip(&mut rasters).map(alone).collect();
     work.rasters = rasters.swap_remove(0);

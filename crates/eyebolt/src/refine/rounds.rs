@@ -3,7 +3,7 @@
 use crate::label::{arm_points, labels_at};
 use crate::observations::Observations;
 use eyebolt_registration::{
-    JointPrior, Labels, MOST_JOINTS, Reach, RefineOptions, RefineView, Refinement, Silhouette,
+    Labels, OffsetDeviations, OffsetPrior, Reach, RefineOptions, RefineView, Refinement, Silhouette,
     Start, Trust, View,
 };
 use eyebolt_render::Raster;
@@ -12,12 +12,12 @@ use rayon::prelude::*;
 /// Points on surfaces that a configuration contributes.
 const POINTS: usize = 1200;
 
-/// Centimetres away, joints that are off would be anything.
-const AT_THEIR_WORD: JointPrior = JointPrior::Known { rad: [1e-5; MOST_JOINTS] };
+/// Centimetres away, joints or intrinsics that are off would be anything.
+const AT_THEIR_WORD: OffsetPrior = OffsetPrior::Known(OffsetDeviations::NONE);
 
 /// From a start that may be centimetres off to one that is within the reach of [`CLOSING`].
 pub const OPENING: &[RefineOptions] =
-    &[RefineOptions { joint_prior: AT_THEIR_WORD, ..options(4, Reach::Far) }];
+    &[RefineOptions { offset_prior: AT_THEIR_WORD, ..options(4, Reach::Far) }];
 
 /// From there to the answer.
 pub const CLOSING: &[RefineOptions] = &[options(5, Reach::Near), options(20, Reach::Close)];
@@ -28,8 +28,7 @@ pub const fn again(iterations: usize) -> RefineOptions {
 }
 
 const fn options(iterations: usize, reach: Reach) -> RefineOptions {
-    let joint_prior = JointPrior::Estimated;
-    RefineOptions { iterations, reach, trust: Trust::All, joint_prior }
+    RefineOptions { iterations, reach, trust: Trust::All, offset_prior: OffsetPrior::Estimated }
 }
 
 /// Labels and points of each of `views` with the arm posed as `start` has it.

@@ -1,0 +1,188 @@
+//! How far off the joints of this arm and the intrinsics of this camera are likely to be, from what all
+//! of them together show: ARCHITECTURE.md, (7).
+
+use super::covariance::sandwich;
+use super::priors::with_priors;
+use super::start::OffsetDeviations;
+use super::system::System;
+use crate::arm::MOST_JOINTS;
+use crate::unknowns::{FIRST_JOINT, OFFSETS, State};
+use nalgebra::{SMatrix, SVector};
+
+type Offsets = SVector<f64, OFFSETS>;
+type Covariance = SMatrix<f64, OFFSETS, OFFSETS>;
+
+/// What good cameras are off by, and what they are asked under: relative error of the focal lengths,
+/// then the principal point in focal lengths. Half a pixel of six hundred is about what a factory's
+/// calibration leaves; ten pixels are more than drivers that make intrinsics up are off by.
+const LEAST_INTRINSIC: f64 = 5e-4;
+const OPEN_INTRINSIC: f64 = 0.03;
+/// Prior deviation under which the joints are asked what they show, radians: more than arms are off.
+const OPEN_RAD: f64 = 0.05;
+/// Deviations tried for all joints, radians: from what good arms show, 0.006 degrees, to 2 degrees.
+const LEAST_RAD: f64 = 1e-4;
+const LARGEST_RAD: f64 = 0.035;
+/// From one deviation tried to the next.
+const RATIO: f64 = 1.25;
+/// Variances of offsets are this many times what the scores of a few dozen patches say: on simulated
+/// arms without offsets, some seem off by up to five of the deviations that these say.
+const OVERCONFIDENCE: f64 = 4.0;
+/// What a joint has to add to the logarithm of the likelihood to have a deviation of its own: about
+/// three of its deviations.
+const STANDS_OUT: f64 = 3.0;
+/// Likewise an intrinsic, whose offset moves the answer by centimetres: masks that are a little too wide
+/// in every view look like one of a few deviations.
+const INTRINSIC_STANDS_OUT: f64 = 25.0;
+/// What a deviation of all joints has to add.
+const ALL_STAND_OUT: f64 = 6.0;
+
+/// Standard deviations of the priors of the offsets that make what `system` says of them most likely
+/// (empirical Bayes: Efron and Morris, Journal of the American Statistical Association 1973): one for all
+/// joints and a small one for the intrinsics, but for those that stand out.
+///
+/// `gauge`: the joints of whose offsets those of the others tell nothing.
+pub(super) fn estimate(
+    system: &System<'_>,
+    state: &State,
+    gauge: [bool; MOST_JOINTS],
+) -> OffsetDeviations {
+    let mut apart = [false; OFFSETS];
+    apart[..MOST_JOINTS].copy_from_slice(&gauge);
+    let Some((mut offsets, covariance)) = under_open_prior(system, state) else {
+        return OffsetDeviations::from_fn(least);
+    };
+    for joint in (0..MOST_JOINTS).filter(|joint| gauge[*joint]) {
+        offsets[joint] = LARGEST_RAD;
+    }
+    if std::env::var_os("EYEBOLT_DEBUG2").is_some() {
+        println!("    prior: {}", (0..OFFSETS).map(|i| format!("{:.4}+-{:.4}", offsets[i], covariance[(i,i)].sqrt())).collect::<Vec<_>>().join(" "));
+    }
+    let found = most_likely(&offsets, &covariance, apart);
+    OffsetDeviations::from_fn(|offset| found[offset])
+}
+
+fn stands_out(offset: usize) -> f64 {
+    if offset < MOST_JOINTS { STANDS_OUT } else { INTRINSIC_STANDS_OUT }
+}
+
+/// The least deviation of an offset's prior.
+fn least(offset: usize) -> f64 {
+    if offset < MOST_JOINTS { LEAST_RAD } else { LEAST_INTRINSIC }
+}
+
+/// What the evidence says of the offsets if they may be anything, and how surely.
+pub(super) fn under_open_prior(
+    system: &System<'_>,
+    state: &State,
+) -> Option<(Offsets, Covariance)> {
+    let open = |offset| if offset < MOST_JOINTS { OPEN_RAD } else { OPEN_INTRINSIC };
+    let open = OffsetDeviations::from_fn(open);
+    let sum = with_priors(system.total(), state, &open);
+    let step = sum.solve(1e-6)?;
+    let covariance = sandwich(system, &sum, state, &open, &step)?;
+    let offsets = step.fixed_rows::<OFFSETS>(FIRST_JOINT).into_owned();
+    let block = covariance.fixed_view::<OFFSETS, OFFSETS>(FIRST_JOINT, FIRST_JOINT);
+    Some((Offsets::from(state.offsets()) + offsets, block * OVERCONFIDENCE))
+}
+
+/// The deviations that make `offsets`, known up to `covariance`, most likely; those `apart` are off by
+/// their own. As few are off as explain what is seen: a deviation of all joints has to be worth several
+/// of single ones.
+fn most_likely(offsets: &Offsets, covariance: &Covariance, apart: [bool; OFFSETS]) -> Offsets {
+    let single = with_more_apart(offsets, covariance, apart, LEAST_RAD);
+    let common = with_more_apart(offsets, covariance, apart, LARGEST_RAD);
+    if common.0 > single.0 + ALL_STAND_OUT { common.1 } else { single.1 }
+}
+
+/// As [`with_apart`], with further offsets apart as long as each is worth it; the logarithm of the
+/// likelihood is less what those cost.
+fn with_more_apart(
+    offsets: &Offsets,
+    covariance: &Covariance,
+    mut apart: [bool; OFFSETS],
+    largest_rad: f64,
+) -> (f64, Offsets) {
+    let (mut best, mut deviations) = with_apart(offsets, covariance, &apart, largest_rad);
+    let mut cost = 0.0;
+    loop {
+        let others = (0..OFFSETS).filter(|offset| !apart[*offset]).map(|offset| {
+            let mut more = apart;
+            more[offset] = true;
+            let (likelihood, found) = with_apart(offsets, covariance, &more, largest_rad);
+            (likelihood - best - stands_out(offset), likelihood, found, more)
+        });
+        match others.max_by(|(a, ..), (b, ..)| a.total_cmp(b)) {
+            Some((gain, likelihood, found, more)) if gain > 0.0 => {
+                cost += likelihood - best - gain;
+                (best, deviations, apart) = (likelihood, found, more);
+            }
+            _ => return (best - cost, deviations),
+        }
+    }
+}
+
+/// The best deviation up to `largest_rad` for those joints that are not `apart`, each of which is off by
+/// its own; and the logarithm of the likelihood.
+fn with_apart(
+    offsets: &Offsets,
+    covariance: &Covariance,
+    apart: &[bool; OFFSETS],
+    largest_rad: f64,
+) -> (f64, Offsets) {
+    let tried = std::iter::successors(Some(LEAST_RAD), |deviation| Some(deviation * RATIO));
+    let all = tried.take_while(|deviation| *deviation <= largest_rad).map(|common| {
+        let deviations = Offsets::from_fn(|offset, _| match apart[offset] {
+            true => offsets[offset].abs().max(least(offset)),
+            false if offset < MOST_JOINTS => common,
+            false => least(offset),
+        });
+        (log_likelihood(offsets, covariance, &deviations), deviations)
+    });
+    let worst = (f64::NEG_INFINITY, Offsets::repeat(LEAST_RAD));
+    all.fold(worst, |best, next| if next.0 > best.0 { next } else { best })
+}
+
+fn log_likelihood(offsets: &Offsets, covariance: &Covariance, deviations: &Offsets) -> f64 {
+    let total = covariance + Covariance::from_diagonal(&deviations.map(|d| d * d));
+    let Some(factor) = total.cholesky() else { return f64::NEG_INFINITY };
+    let log_determinant: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+    -log_determinant - 0.5 * offsets.dot(&factor.solve(offsets))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIGMA_DEG: f64 = 0.02;
+
+    /// Of joints that are known to 0.02 degrees.
+    fn prior_deg(offsets_deg: [f64; MOST_JOINTS]) -> [f64; MOST_JOINTS] {
+        let variance = SIGMA_DEG.to_radians().powi(2);
+        let mut offsets = Offsets::zeros();
+        let joints = SVector::from(offsets_deg).map(f64::to_radians);
+        offsets.fixed_rows_mut::<MOST_JOINTS>(0).copy_from(&joints);
+        let prior = most_likely(&offsets, &(Covariance::identity() * variance), [false; OFFSETS]);
+        std::array::from_fn(|joint| prior[joint].to_degrees())
+    }
+
+    #[test]
+    fn what_the_errors_explain_is_no_offset() {
+        let noise = prior_deg([0.02, -0.015, 0.01, -0.02, 0.022, 0.0, -0.018, 0.012]);
+        assert!(noise.iter().all(|prior| *prior < 0.006), "{noise:?}");
+    }
+
+    #[test]
+    fn joints_that_are_all_off_have_a_prior_as_wide() {
+        let off = prior_deg([0.3, -0.25, 0.35, -0.3, -0.4, 0.3, 0.2, -0.3]);
+        assert!(off.iter().all(|prior| (0.25..0.4).contains(prior)), "{off:?}");
+    }
+
+    #[test]
+    fn one_joint_that_is_off_does_not_put_the_others_in_doubt() {
+        let one = prior_deg([0.01, -0.015, 0.01, -0.3, 0.01, 0.0, -0.01, 0.01]);
+        for (joint, prior) in one.iter().enumerate() {
+            let expected = if joint == 3 { 0.25..0.35 } else { 0.0..0.006 };
+            assert!(expected.contains(prior), "{one:?}");
+        }
+    }
+}
