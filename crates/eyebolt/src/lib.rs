@@ -17,3 +17,4 @@ pub mod refine;
 pub mod report;
 pub mod robots;
 pub mod simulate;
+pub mod study;

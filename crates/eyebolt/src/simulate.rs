@@ -6,8 +6,11 @@
 
 mod body;
 mod configurations;
+mod encoders;
 mod error;
 mod faults;
+mod in_memory;
+mod occlusion;
 mod plan;
 mod random_stream;
 mod record;
@@ -17,6 +20,7 @@ mod scene;
 mod solids;
 mod surroundings;
 mod timeline;
+mod true_arm;
 mod true_view;
 mod viewpoint;
 

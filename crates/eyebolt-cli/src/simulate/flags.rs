@@ -19,7 +19,7 @@ pub fn sensor() -> impl TypedValueParser<Value = Sensor> {
 /// Which robot.
 #[derive(Debug, clap::Args)]
 pub struct RobotArguments {
-    /// A robot that comes with the program (shackle), or a URDF with its meshes
+    /// A robot that comes with the program (shackle, davit, capstan, cleat), or a URDF with its meshes
     #[arg(long, value_name = "NAME|URDF", default_value = "shackle")]
     robot: String,
     /// Base link; otherwise guessed
@@ -192,6 +192,21 @@ pub struct FaultArguments {
     #[arg(long, value_name = "MS", default_value_t = 0.0,
           value_parser = number(-900.0, 900_000.0), allow_hyphen_values = true)]
     time_skew_ms: f64,
+    /// How far one joint, not the first, is from where it says besides, one way or the other, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
+    one_joint_offset_deg: f64,
+    /// How much longer one link is than the description says, millimetres
+    #[arg(long, value_name = "MM", default_value_t = 0.0,
+          value_parser = number(-100.0, 100.0), allow_hyphen_values = true)]
+    link_length_mm: f64,
+    /// Only the last half of the joints moves: all configurations are alike
+    #[arg(long)]
+    wrist_only: bool,
+    /// Share of the arm that a box before it hides
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0,
+          value_parser = number(0.0, 0.9), allow_hyphen_values = true)]
+    occlusion: f64,
     /// The camera is bumped after half of the configurations, by so many millimetres and degrees
     #[arg(long, value_name = "MM,DEG",
           value_parser = pair([0.0, 1e4], [0.0, 180.0]), allow_hyphen_values = true)]
@@ -209,6 +224,10 @@ impl FaultArguments {
             joint_offset_sigma: self.joint_offset_sigma_deg.to_radians(),
             backlash: self.backlash_deg.to_radians(),
             time_skew_s: 1e-3 * self.time_skew_ms,
+            one_joint_offset: self.one_joint_offset_deg.to_radians(),
+            link_length_m: 1e-3 * self.link_length_mm,
+            wrist_only: self.wrist_only,
+            occlusion: self.occlusion,
             bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),
         }
     }

@@ -11,8 +11,8 @@ use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::Point3;
 
 /// An arm with the shapes of its links.
-pub(super) struct ArmBody<'a> {
-    pub(super) arm: &'a Arm,
+pub(super) struct ArmBody {
+    pub(super) arm: Arm,
     /// Which links of the robot the model's are.
     pub(super) links: Vec<usize>,
     pub(super) model: ArmModel,
@@ -32,11 +32,11 @@ const CLEARANCE_M: f32 = 0.012;
 const TRIALS: u64 = 60;
 const MOSTLY: f64 = 0.5;
 
-impl<'a> ArmBody<'a> {
-    pub(super) fn new(arm: &'a Arm, cache: &LinkCache) -> Result<Self, SimulateError> {
+impl ArmBody {
+    pub(super) fn new(arm: Arm, cache: &LinkCache) -> Result<Self, SimulateError> {
         let robot = arm.robot();
         let below = (0..robot.links.len()).filter(|link| arm.is_below_base(*link));
-        let (links, model) = record::shapes(arm, below.collect(), cache)?;
+        let (links, model) = record::shapes(&arm, below.collect(), cache)?;
         let meshes = links.iter().map(|link| {
             let link = &robot.links[*link];
             let read = link_mesh(link, Prefer::Visual);
@@ -56,9 +56,9 @@ impl<'a> ArmBody<'a> {
             true
         });
         let mut body = Self {
-            arm,
             is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
             rests: rests.collect(),
+            arm,
             may_touch: Vec::new(),
             links,
             model,

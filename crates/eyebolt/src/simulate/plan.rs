@@ -1,22 +1,24 @@
 //! Where everything of a simulated recording is.
 
 use super::body::ArmBody;
-use super::configurations::{Onlooker, Pose, choose};
+use super::configurations::{Onlooker, Pose, choose, choose_alike};
 use super::error::SimulateError;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::solids::Solid;
 use super::surroundings::in_place;
-use super::{scene, surroundings};
+use super::true_arm::true_arm;
+use super::{occlusion, scene, surroundings};
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{RayScene, SceneMesh};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Where everything is.
 pub struct Plan<'a> {
     pub(super) scenario: Scenario<'a>,
-    pub(super) body: ArmBody<'a>,
+    /// The arm as it is, which may not be as it is described.
+    pub(super) body: ArmBody,
     /// The true intrinsics.
     pub(super) camera: PinholeCamera,
     /// What the recording says they are.
@@ -37,7 +39,7 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
     if scenario.faults.bump.is_some() && scenario.configurations < 2 {
         return Err(SimulateError::BumpOfOne);
     }
-    let body = ArmBody::new(scenario.arm, cache)?;
+    let body = ArmBody::new(true_arm(&scenario), cache)?;
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
@@ -55,8 +57,13 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         room: &room,
     };
     let random = RandomStream::Configurations.of(seed);
-    let poses = choose(&body, &onlooker, scenario.configurations, random)?;
+    let count = scenario.configurations;
+    let poses = match scenario.faults.wrist_only {
+        true => choose_alike(&body, &onlooker, count, random)?,
+        false => choose(&body, &onlooker, count, random)?,
+    };
     solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
+    solids.extend(occlusion::before(&scenario, &body, &poses, &eye));
     Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })
 }
 
@@ -64,6 +71,15 @@ impl Plan<'_> {
     /// The true pose of the base link in the camera's optical frame, when the recording begins.
     pub fn camera_from_base(&self) -> Transform<Camera, Base> {
         self.base_from_camera.inverse()
+    }
+
+    /// Centre of the workspace, base frame: the middle of where the end-effector is.
+    pub fn workspace_in_base(&self) -> Point3<f64> {
+        let tip = |pose: &Pose| {
+            let there = self.body.arm.base_from_end_effector(&pose.joints);
+            there.expect("the arm was posed with these joints").translation_m()
+        };
+        Point3::from(self.poses.iter().map(tip).sum::<Vector3<f64>>() / self.poses.len() as f64)
     }
 
     /// What stands around: the room, then the clutter.

@@ -13,6 +13,8 @@ pub(super) enum RandomStream {
     Frames,
     Encoders,
     Bump,
+    Link,
+    Occlusion,
 }
 
 impl RandomStream {

@@ -1,14 +1,14 @@
 //! What the camera sees of a plan, as a recording.
 
+use super::encoders::Encoders;
 use super::error::SimulateError;
-use super::faults::Encoders;
 use super::plan::Plan;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::viewpoint::Viewpoint;
 use crate::progress::Progress;
-use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_geometry::{Base, Camera, DepthImage, Transform};
 use eyebolt_recording::{CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError};
 use eyebolt_render::{Exposure, SceneMesh, Specimen};
 use eyebolt_robot::JointPositions;
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
 /// Name of the simulated camera's frame.
-const FRAME_ID: &str = "camera_depth_optical_frame";
+pub(super) const FRAME_ID: &str = "camera_depth_optical_frame";
 
 impl Plan<'_> {
     /// Writes the recording as MCAP to `output`. Memory does not grow with its length.
@@ -87,12 +87,23 @@ impl Plan<'_> {
         if self.scenario.backgrounds == 0 {
             return Ok(());
         }
+        let frames = self.backgrounds();
+        (0..self.scenario.backgrounds).zip(frames).try_for_each(|(index, frame)| {
+            told(index)?;
+            writer.background(background_stamp_ns(index), &frame)
+        })
+    }
+
+    /// Frames without the arm, without end.
+    pub(super) fn backgrounds(&self) -> impl Iterator<Item = DepthImage> + use<> {
         let exposure = self.look_at(&[], &self.base_from_camera);
         let random = RandomStream::Frames.of(self.scenario.seed).at(u64::MAX);
-        (0..self.scenario.backgrounds).try_for_each(|index| {
-            told(index)?;
-            writer.background(background_stamp_ns(index), &exposure.frame(random.at(index as u64)))
-        })
+        (0..).map(move |index| exposure.frame(random.at(index)))
+    }
+
+    /// What the camera sees while the arm rests in a configuration.
+    pub(super) fn look_at_rest(&self, configuration: usize) -> Exposure {
+        self.look(&self.poses[configuration].joints, self.pose_at(configuration))
     }
 
     /// What the camera sees with the arm at `joints`.
@@ -137,7 +148,7 @@ impl Plan<'_> {
         stamp_ns + (1e9 * self.scenario.faults.time_skew_s) as i64
     }
 
-    fn encoders(&self) -> Encoders {
+    pub(super) fn encoders(&self) -> Encoders {
         let Scenario { arm, faults, seed, .. } = &self.scenario;
         Encoders::new(arm, faults, &mut RandomStream::Encoders.of(*seed))
     }
@@ -148,17 +159,21 @@ impl Plan<'_> {
         self.camera_from_base() * self.encoders().base_from_told_base(self.scenario.arm)
     }
 
+    /// As [`Self::sought_camera_from_base`] after the camera was bumped, if it was.
+    pub fn sought_camera_from_base_after(&self) -> Option<Transform<Camera, Base>> {
+        let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len())?;
+        Some(after.inverse() * self.encoders().base_from_told_base(self.scenario.arm))
+    }
+
     /// How much farther each joint that turns stands than it says, radians.
     pub fn joint_offsets(&self) -> BTreeMap<String, f64> {
         self.encoders().offsets()
     }
 
     fn truth(&self, timeline: &Timeline) -> Truth {
-        let base_from_told = self.encoders().base_from_told_base(self.scenario.arm);
-        let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len());
-        let after = after.map(|base_from_camera| CameraMoved {
+        let after = self.sought_camera_from_base_after().map(|camera_from_base| CameraMoved {
             stamp_ns: self.skewed_ns(timeline.begin_ns(self.bumped_at())),
-            camera_from_base: base_from_camera.inverse() * base_from_told,
+            camera_from_base,
         });
         let preset = match self.scenario.viewpoint {
             Viewpoint::Preset(preset) => Some(preset.name.to_owned()),

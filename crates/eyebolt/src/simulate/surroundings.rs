@@ -21,7 +21,7 @@ const CAMERA_CLEARANCE_M: f64 = 0.5;
 /// The clutter of `scenario`, out of the way of the arm in `poses` as seen from `eye` (base frame).
 pub(super) fn clutter_about(
     scenario: &Scenario<'_>,
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     poses: &[Pose],
     eye: &Point3<f64>,
 ) -> Vec<Solid> {
@@ -33,7 +33,7 @@ pub(super) fn clutter_about(
     things.collect()
 }
 
-fn is_out_of_the_way(solid: &Solid, body: &ArmBody<'_>, poses: &[Pose], eye: &Point3<f64>) -> bool {
+fn is_out_of_the_way(solid: &Solid, body: &ArmBody, poses: &[Pose], eye: &Point3<f64>) -> bool {
     let far = |vertex: &Point3<f32>| (vertex.cast::<f64>() - eye).norm() > CAMERA_CLEARANCE_M;
     if !solid.mesh.vertices.iter().all(far) {
         return false;
