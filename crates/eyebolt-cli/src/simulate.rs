@@ -1,6 +1,7 @@
 //! `eyebolt simulate`.
 
 pub mod flags;
+mod lab_flags;
 mod recording;
 
 pub use recording::record;

@@ -1,5 +1,6 @@
 //! Flags that say what to simulate.
 
+use super::lab_flags::LabArguments;
 use crate::inputs::packages;
 use crate::shell::quoted;
 use anyhow::{Context, Result, bail};
@@ -211,6 +212,9 @@ pub struct FaultArguments {
     #[arg(long, value_name = "MM,DEG",
           value_parser = pair([0.0, 1e4], [0.0, 180.0]), allow_hyphen_values = true)]
     bump: Option<[f64; 2]>,
+    // Last: its heading goes on to what follows.
+    #[command(flatten)]
+    lab: LabArguments,
 }
 
 impl FaultArguments {
@@ -229,6 +233,7 @@ impl FaultArguments {
             wrist_only: self.wrist_only,
             occlusion: self.occlusion,
             bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),
+            lab: self.lab.lab(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What goes wrong in laboratories, on purpose.
 
+use super::lab::Lab;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_render::{IntrinsicsError, Random};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -35,6 +36,8 @@ pub struct Faults {
     pub occlusion: f64,
     /// The camera moves after half of the configurations: how far, metres and radians.
     pub bump: Option<[f64; 2]>,
+    /// What is there besides.
+    pub lab: Lab,
 }
 
 impl Default for Faults {
@@ -53,6 +56,7 @@ impl Default for Faults {
             wrist_only: false,
             occlusion: 0.0,
             bump: None,
+            lab: Lab::default(),
         }
     }
 }
@@ -80,7 +84,8 @@ impl Faults {
             ("bump_deg", bump_rad.to_degrees(), 0.0),
         ];
         let there = rows.into_iter().filter(|(_, value, none)| value != none);
-        there.map(|(name, value, _)| (name.to_owned(), value.into())).collect()
+        let there = there.map(|(name, value, _)| (name.to_owned(), value.into()));
+        there.chain(self.lab.named()).collect()
     }
 
     /// How the recording states the intrinsics.

@@ -40,11 +40,11 @@ impl Plan<'_> {
         for (index, pose) in self.poses.iter().enumerate() {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
             let joints = encoders.read(&pose.joints, before, &pose.joints);
-            let exposure = self.look_at_rest(index);
+            let shot = self.look_at_rest(index);
             for frame in 0..scenario.frames {
                 // Frames of all kinds are counted: each has the noise that it has in a file.
                 let place = index * (scenario.frames + scenario.moving_frames) + frame;
-                let depth = self.as_stored(exposure.frame(noise.at(place as u64)));
+                let depth = self.as_stored(shot.frame(noise.at(place as u64)));
                 match source.push(format!("{index}-{frame}"), depth, joints.clone()) {
                     Err(RecordingError::EmptyFrame { .. }) => {}
                     pushed => drop(pushed?),

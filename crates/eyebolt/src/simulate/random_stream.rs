@@ -15,6 +15,13 @@ pub(super) enum RandomStream {
     Bump,
     Link,
     Occlusion,
+    PassersBy,
+    OtherRooms,
+    SecondArm,
+    Dress,
+    Gloss,
+    Wander,
+    FixedPattern,
 }
 
 impl RandomStream {

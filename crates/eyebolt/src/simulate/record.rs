@@ -1,5 +1,6 @@
 //! What the camera sees of a plan, as a recording.
 
+use super::aftermath::Shot;
 use super::encoders::Encoders;
 use super::error::SimulateError;
 use super::plan::Plan;
@@ -10,7 +11,7 @@ use super::viewpoint::Viewpoint;
 use crate::progress::Progress;
 use eyebolt_geometry::{Base, Camera, DepthImage, Transform};
 use eyebolt_recording::{CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError};
-use eyebolt_render::{Exposure, SceneMesh, Specimen};
+use eyebolt_render::{RayScene, Specimen};
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
@@ -51,7 +52,7 @@ impl Plan<'_> {
         let mut done = 0;
         for (index, pose) in self.poses.iter().enumerate() {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
-            let mut resting: Option<Exposure> = None;
+            let mut resting: Option<Shot> = None;
             for moment in timeline.moments(index, before, &pose.joints) {
                 let Event::Frame { at_rest } = moment.event else {
                     let read = encoders.read(&moment.joints, before, &pose.joints);
@@ -60,11 +61,10 @@ impl Plan<'_> {
                 };
                 told(scenario.backgrounds + done)?;
                 let known = resting.take();
-                let exposure =
-                    known.unwrap_or_else(|| self.look(&moment.joints, self.pose_at(index)));
-                let frame = exposure.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
+                let shot = known.unwrap_or_else(|| self.look(&moment.joints, index));
+                let frame = shot.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
                 writer.depth(self.skewed_ns(moment.stamp_ns), &frame)?;
-                resting = at_rest.then_some(exposure);
+                resting = at_rest.then_some(shot);
                 done += 1;
             }
         }
@@ -96,40 +96,39 @@ impl Plan<'_> {
 
     /// Frames without the arm, without end.
     pub(super) fn backgrounds(&self) -> impl Iterator<Item = DepthImage> + use<> {
-        let exposure = self.look_at(&[], &self.base_from_camera);
+        let scene = self.empty_scene();
+        let shot = self.look_at(&scene, &self.base_from_camera, None);
         let random = RandomStream::Frames.of(self.scenario.seed).at(u64::MAX);
-        (0..).map(move |index| exposure.frame(random.at(index)))
+        (0..).map(move |index| shot.frame(random.at(index)))
     }
 
     /// What the camera sees while the arm rests in a configuration.
-    pub(super) fn look_at_rest(&self, configuration: usize) -> Exposure {
-        self.look(&self.poses[configuration].joints, self.pose_at(configuration))
+    pub(super) fn look_at_rest(&self, configuration: usize) -> Shot {
+        self.look(&self.poses[configuration].joints, configuration)
     }
 
-    /// What the camera sees with the arm at `joints`.
-    fn look(
-        &self,
-        joints: &JointPositions,
-        base_from_camera: &Transform<Base, Camera>,
-    ) -> Exposure {
+    /// What the camera sees with the arm at `joints`, on the way to a configuration or there.
+    fn look(&self, joints: &JointPositions, configuration: usize) -> Shot {
         let posture = self.body.posture(joints);
         let posture = posture.expect("the arm was posed with these joints, or others between them");
-        self.look_at(&self.body.scene_meshes(&posture), base_from_camera)
+        let scene = self.scene(&self.body.scene_meshes(&posture), configuration);
+        self.look_at(&scene, self.pose_at(configuration), Some(configuration))
     }
 
     fn look_at(
         &self,
-        arm: &[SceneMesh<'_>],
+        scene: &RayScene,
         base_from_camera: &Transform<Base, Camera>,
-    ) -> Exposure {
-        let scene = self.scene(arm);
+        configuration: Option<usize>,
+    ) -> Shot {
         let faults = &self.scenario.faults;
         let specimen = Specimen {
             random: RandomStream::Specimen.of(self.scenario.seed),
             depth_scale: faults.depth_scale,
             depth_offset_m: faults.depth_offset_m,
         };
-        self.scenario.sensor.look(&scene, &self.camera, base_from_camera, &specimen)
+        let exposure = self.scenario.sensor.look(scene, &self.camera, base_from_camera, &specimen);
+        self.shoot(scene, base_from_camera, exposure, configuration)
     }
 
     /// Where the camera is while the arm goes to, and rests in, a configuration.

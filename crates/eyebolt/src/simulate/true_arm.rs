@@ -1,5 +1,6 @@
 //! The arm as it really is where the description is wrong.
 
+use super::dress::add_tool;
 use super::faults::Faults;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
@@ -7,12 +8,15 @@ use eyebolt_geometry::{Link, Transform};
 use eyebolt_render::Random;
 use eyebolt_robot::{Arm, Robot};
 
-/// The arm of `scenario` as it really is.
+/// The arm of `scenario` as it really is, but for what gives way.
 pub(super) fn true_arm(scenario: &Scenario<'_>) -> Arm {
     let mut robot = scenario.arm.robot().clone();
-    let Faults { link_length_m, .. } = scenario.faults;
+    let Faults { link_length_m, lab, .. } = scenario.faults;
     if link_length_m != 0.0 {
         lengthen(&mut robot, scenario.arm, link_length_m, RandomStream::Link.of(scenario.seed));
+    }
+    if lab.tool_m > 0.0 {
+        add_tool(&mut robot, scenario.arm.end_effector(), lab.tool_m);
     }
     let (base, end_effector) = (scenario.arm.base_name(), scenario.arm.end_effector_name());
     robot.arm(Some(base), Some(end_effector)).expect("its links are those of the arm described")

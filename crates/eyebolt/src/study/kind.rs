@@ -32,6 +32,18 @@ kinds! {
     /// Nothing beyond what every lab has: depth scaled by a percent, joint zeros off by tenths of a
     /// degree.
     Plain = "plain", false;
+    /// Part of the arm glosses.
+    Gloss = "gloss", false;
+    /// The walls are far away, and depth there is another in each configuration.
+    FarRoom = "far-room", false;
+    /// A tool, a cable or a cover on the arm that the description lacks.
+    ExtraParts = "extra-parts", false;
+    /// People and boxes are elsewhere in each configuration, and now and then so is the room.
+    PassersBy = "passers-by", false;
+    /// Another arm of the same kind stands beside.
+    SecondArm = "second-arm", false;
+    /// The camera is one or two percent long or short, and off in rings and bands.
+    CameraPattern = "camera-pattern", false;
     /// The camera was bumped after half of the configurations.
     Bump = "bump", true;
     /// A link is longer than described.

@@ -3,7 +3,7 @@
 use super::kind::Kind;
 use super::tampering::Tampering;
 use crate::robots::{BUILT_IN, BuiltIn};
-use crate::simulate::{Faults, Ranges, Viewpoint};
+use crate::simulate::{Faults, Lab, Ranges, SecondArm, Viewpoint};
 use eyebolt_render::{Random, Sensor};
 
 /// A session: a robot, a camera, a room, and what is the matter.
@@ -74,15 +74,16 @@ impl Session {
             tampering: None,
             seed: random(Choice::Seed).next_u64(),
         };
-        session.spoil(&mut random(Choice::Matter));
+        session.become_its_kind(&mut random(Choice::Matter));
         session
     }
 
     /// Makes the session one of its kind.
-    fn spoil(&mut self, random: &mut Random) {
+    fn become_its_kind(&mut self, random: &mut Random) {
+        self.faults.lab = lab(self.kind, self.robot.about().reach_m, random);
         let faults = &mut self.faults;
         match self.kind {
-            Kind::Plain => {}
+            Kind::CameraPattern => faults.depth_scale = 1.0 + either_way(random, 0.01, 0.02),
             Kind::Bump => {
                 let by_deg = random.between(0.3, 2.0);
                 faults.bump = Some([random.between(0.005, 0.020), by_deg.to_radians()]);
@@ -98,17 +99,54 @@ impl Session {
             Kind::DepthScale => faults.depth_scale = 1.0 + either_way(random, 0.03, 0.06),
             Kind::Occlusion => faults.occlusion = 1.0 / 3.0,
             Kind::JointZero => faults.one_joint_offset = random.between(0.5, 3.0).to_radians(),
-            Kind::OtherRobot | Kind::JointOrder | Kind::WrongUnit => {
-                self.tampering = Tampering::draw(self.kind, self.robot, random);
+            _ => self.tampering = Tampering::draw(self.kind, self.robot, random),
+        }
+    }
+}
+
+/// What is in the laboratory of a session of `kind` with an arm of `reach_m`.
+fn lab(kind: Kind, reach_m: f64, random: &mut Random) -> Lab {
+    let none = Lab::default();
+    match kind {
+        Kind::Gloss => Lab { gloss: random.between(0.05, 0.5), ..none },
+        Kind::FarRoom => Lab { far_room: true, wander_m: random.between(0.003, 0.012), ..none },
+        Kind::ExtraParts => {
+            // In steps: shapes are kept between sessions.
+            let tool_m = (0.05 * (2 + random.index(4)) as f64) * (reach_m / USUAL_REACH_M);
+            let (which, either) = (random.index(4), random.uniform() < 0.5);
+            Lab {
+                tool_m: if which == 0 || (which == 3 && either) { tool_m } else { 0.0 },
+                cable: which == 1 || which == 3,
+                cover: which == 2 || (which == 3 && !either),
+                ..none
             }
         }
+        Kind::PassersBy => Lab {
+            passers_by: 1 + random.index(4),
+            other_rooms: if random.uniform() < 0.5 { random.between(0.1, 0.5) } else { 0.0 },
+            ..none
+        },
+        Kind::SecondArm => {
+            let moves = random.uniform() < 0.5;
+            Lab { second_arm: if moves { SecondArm::Moving } else { SecondArm::Still }, ..none }
+        }
+        Kind::CameraPattern => Lab { fixed_pattern: random.between(0.5, 1.5), ..none },
+        _ => none,
     }
 }
 
 const TAU: f64 = std::f64::consts::TAU;
 
+/// Of good sessions, those that have nothing the matter.
+const PLAIN: f64 = 0.4;
+
 fn any_kind(random: &mut Random) -> Kind {
-    let kinds = Kind::all(random.uniform() < 0.5);
+    let spoiled = random.uniform() < 0.5;
+    if !spoiled && random.uniform() < PLAIN {
+        return Kind::Plain;
+    }
+    let mut kinds = Kind::all(spoiled);
+    kinds.retain(|kind| *kind != Kind::Plain);
     kinds[random.index(kinds.len())]
 }
 
