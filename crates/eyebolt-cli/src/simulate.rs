@@ -2,6 +2,7 @@
 
 pub mod flags;
 mod lab_flags;
+pub mod numbers;
 mod recording;
 
 pub use recording::record;

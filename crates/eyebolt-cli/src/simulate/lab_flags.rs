@@ -1,6 +1,6 @@
 //! Flags that say what is in the laboratory.
 
-use super::flags::number;
+use super::numbers::number;
 use eyebolt::simulate::{Lab, SecondArm};
 
 /// What is there that neither a description nor a tidy room has.
