@@ -51,5 +51,5 @@ pub(super) fn usual_size(scenario: &Scenario<'_>) -> RoomSize {
 
 /// Rooms of both sizes in turn.
 fn any_size(index: usize) -> RoomSize {
-    if index % 2 == 0 { ROOM } else { HALL }
+    if index.is_multiple_of(2) { ROOM } else { HALL }
 }

@@ -89,8 +89,8 @@ fn sessions_are_those_of_the_seed_in_order_on_any_number_of_threads() {
     let study = Study { sessions: 3, seed: 2, only: Some(Kind::WrongUnit), threads: 1 };
     let expected = told(&study);
     assert_eq!(expected.len(), 4);
-    for number in 0..3 {
-        assert!(expected[number].contains(&format!("number: {number}")), "{}", expected[number]);
+    for (number, line) in expected[..3].iter().enumerate() {
+        assert!(line.contains(&format!("number: {number},")), "{line}");
     }
     assert!(told(&Study { threads: 3, ..study.clone() }) == expected);
     assert!(told(&Study { seed: 3, ..study }) != expected);
