@@ -5,7 +5,7 @@ use crate::inputs::{CacheArguments, use_threads};
 use crate::names;
 use crate::output::{self, Destination};
 use crate::progress::{Bar, Waiting};
-use crate::simulate::{flags, record};
+use crate::simulate::{flags, numbers, record};
 use crate::summary;
 use anyhow::{Context as _, Result, bail};
 use eyebolt::answer::Answer;
@@ -37,7 +37,7 @@ pub struct Arguments {
     seed: u64,
     /// How far each joint is from where it says, degrees: what becomes of it?
     #[arg(long, value_name = "DEG", default_value_t = 0.0,
-          value_parser = flags::number(0.0, 90.0), allow_hyphen_values = true)]
+          value_parser = numbers::number(0.0, 90.0), allow_hyphen_values = true)]
     joint_offset_deg: f64,
     /// Threads to use; otherwise one for each core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -14,6 +14,7 @@ mod output;
 mod progress;
 mod shell;
 mod simulate;
+mod study;
 mod summary;
 
 use clap::{Parser, Subcommand};
@@ -56,6 +57,11 @@ enum Command {
     ///
     /// Refused calibrations are evaluated too: whether they were refused is part of the answer.
     Evaluate(evaluate::Arguments),
+    /// Simulate many sessions, good and spoiled, calibrate each, and count right and wrong verdicts
+    ///
+    /// Half of the sessions are spoiled by one thing each. A trusted answer should be within 10 mm and
+    /// 0.6 degrees of the truth, and within what it expects itself.
+    Study(study::Arguments),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
 }
@@ -70,6 +76,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };
     match ending {

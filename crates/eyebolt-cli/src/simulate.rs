@@ -1,6 +1,8 @@
 //! `eyebolt simulate`.
 
 pub mod flags;
+mod lab_flags;
+pub mod numbers;
 mod recording;
 
 pub use recording::record;

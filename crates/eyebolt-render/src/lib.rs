@@ -17,7 +17,7 @@ pub use random::Random;
 pub use raster::{PosedMesh, Raster};
 pub use rays::{Hit, RayScene, SceneMesh};
 pub use sensor::{
-    AxialNoise, Exposure, Family, IntrinsicsError, LateralNoise, Mode, Sensor, Specimen,
+    AxialNoise, Exposure, Family, Field, IntrinsicsError, LateralNoise, Mode, Sensor, Specimen,
     TimeOfFlight, Triangulation, UnknownSensor, Window,
 };
 pub use view::IdealView;

@@ -22,6 +22,7 @@ mod window;
 
 pub use by_name::UnknownSensor;
 pub use exposure::Exposure;
+pub use field::Field;
 pub use figures::{TimeOfFlight, Triangulation, Window};
 pub use laws::{AxialNoise, LateralNoise};
 pub use model::{Family, Mode, Sensor};

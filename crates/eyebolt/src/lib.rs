@@ -18,3 +18,4 @@ pub mod refine;
 pub mod report;
 pub mod robots;
 pub mod simulate;
+pub mod study;

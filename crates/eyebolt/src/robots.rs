@@ -14,15 +14,22 @@ pub struct BuiltIn {
     about: &'static str,
 }
 
+macro_rules! built_in {
+    ($name:literal) => {
+        BuiltIn {
+            name: $name,
+            urdf: include_str!(concat!("../robots/", $name, "/robot.urdf")),
+            about: include_str!(concat!("../robots/", $name, "/robot.toml")),
+        }
+    };
+}
+
 /// All of them.
-pub const BUILT_IN: &[BuiltIn] = &[BuiltIn {
-    name: "shackle",
-    urdf: include_str!("../robots/shackle/robot.urdf"),
-    about: include_str!("../robots/shackle/robot.toml"),
-}];
+pub const BUILT_IN: &[BuiltIn] =
+    &[built_in!("shackle"), built_in!("davit"), built_in!("capstan"), built_in!("cleat")];
 
 /// What a robot's `robot.toml` says.
-#[derive(Clone, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct About {
     /// A line for people.
@@ -31,6 +38,8 @@ pub struct About {
     pub base: String,
     /// End-effector link.
     pub end_effector: String,
+    /// From the axis of the first joint to the end-effector of the stretched arm, metres.
+    pub reach_m: f64,
 }
 
 impl BuiltIn {

@@ -4,24 +4,34 @@
 //! [`plan`] decides where everything is, and [`Plan::record`] writes what the camera sees of it as
 //! an ordinary recording. The truth goes into a record of its own, for [`crate::evaluate`].
 
+mod aftermath;
 mod body;
 mod configurations;
+mod dress;
+mod encoders;
 mod error;
 mod faults;
+mod in_memory;
+mod lab;
+mod occlusion;
 mod plan;
 mod random_stream;
 mod record;
 mod rejected;
 mod scenario;
 mod scene;
+mod second_arm;
 mod solids;
+mod stage;
 mod surroundings;
 mod timeline;
+mod true_arm;
 mod true_view;
 mod viewpoint;
 
 pub use error::SimulateError;
 pub use faults::Faults;
+pub use lab::{Lab, SecondArm};
 pub use plan::{Plan, plan};
 pub use rejected::Rejected;
 pub use scenario::Scenario;

@@ -1,5 +1,7 @@
 //! Flags that say what to simulate.
 
+use super::lab_flags::LabArguments;
+use super::numbers::{number, pair, range};
 use crate::inputs::packages;
 use crate::shell::quoted;
 use anyhow::{Context, Result, bail};
@@ -19,7 +21,7 @@ pub fn sensor() -> impl TypedValueParser<Value = Sensor> {
 /// Which robot.
 #[derive(Debug, clap::Args)]
 pub struct RobotArguments {
-    /// A robot that comes with the program (shackle), or a URDF with its meshes
+    /// A robot that comes with the program (shackle, davit, capstan, cleat), or a URDF with its meshes
     #[arg(long, value_name = "NAME|URDF", default_value = "shackle")]
     robot: String,
     /// Base link; otherwise guessed
@@ -78,42 +80,6 @@ impl RobotArguments {
         let base = self.base.as_deref().or(known.map(|about| about.base.as_str()));
         let hand = self.end_effector.as_deref().or(known.map(|about| about.end_effector.as_str()));
         Ok(DescribedArm { arm: robot.arm(base, hand)?, urdf })
-    }
-}
-
-/// Parses a number from `low` to `high`.
-pub fn number(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
-    move |text: &str| {
-        let found = text.trim().parse().ok().filter(|value| (low..=high).contains(value));
-        found.ok_or_else(|| format!("must be a number from {low} to {high}"))
-    }
-}
-
-/// Parses `LOW,HIGH`, or one number for both, each from `low` to `high`.
-fn range(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<[f64; 2], String> + Clone + Send + Sync + 'static {
-    move |text: &str| {
-        let (least, greatest) = text.split_once(',').unwrap_or((text, text));
-        match (number(low, high)(least), number(low, high)(greatest)) {
-            (Ok(least), Ok(greatest)) if least <= greatest => Ok([least, greatest]),
-            _ => Err(format!("must be LOW,HIGH, or one number for both, from {low} to {high}")),
-        }
-    }
-}
-
-/// Parses two numbers, the second of which may be left out if it is 0, each within its limits.
-fn pair(
-    first: [f64; 2],
-    second: [f64; 2],
-) -> impl Fn(&str) -> Result<[f64; 2], String> + Clone + Send + Sync + 'static {
-    move |text: &str| {
-        let (one, other) = text.split_once(',').unwrap_or((text, "0"));
-        Ok([number(first[0], first[1])(one)?, number(second[0], second[1])(other)?])
     }
 }
 
@@ -192,10 +158,28 @@ pub struct FaultArguments {
     #[arg(long, value_name = "MS", default_value_t = 0.0,
           value_parser = number(-900.0, 900_000.0), allow_hyphen_values = true)]
     time_skew_ms: f64,
+    /// How far one joint, not the first, is from where it says besides, one way or the other, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0,
+          value_parser = number(0.0, 90.0), allow_hyphen_values = true)]
+    one_joint_offset_deg: f64,
+    /// How much longer one link is than the description says, millimetres
+    #[arg(long, value_name = "MM", default_value_t = 0.0,
+          value_parser = number(-100.0, 100.0), allow_hyphen_values = true)]
+    link_length_mm: f64,
+    /// Only the last half of the joints moves: all configurations are alike
+    #[arg(long)]
+    wrist_only: bool,
+    /// Share of the arm that a box before it hides
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0,
+          value_parser = number(0.0, 0.9), allow_hyphen_values = true)]
+    occlusion: f64,
     /// The camera is bumped after half of the configurations, by so many millimetres and degrees
     #[arg(long, value_name = "MM,DEG",
           value_parser = pair([0.0, 1e4], [0.0, 180.0]), allow_hyphen_values = true)]
     bump: Option<[f64; 2]>,
+    // Last: its heading goes on to what follows.
+    #[command(flatten)]
+    lab: LabArguments,
 }
 
 impl FaultArguments {
@@ -209,7 +193,12 @@ impl FaultArguments {
             joint_offset_sigma: self.joint_offset_sigma_deg.to_radians(),
             backlash: self.backlash_deg.to_radians(),
             time_skew_s: 1e-3 * self.time_skew_ms,
+            one_joint_offset: self.one_joint_offset_deg.to_radians(),
+            link_length_m: 1e-3 * self.link_length_mm,
+            wrist_only: self.wrist_only,
+            occlusion: self.occlusion,
             bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),
+            lab: self.lab.lab(),
         }
     }
 }

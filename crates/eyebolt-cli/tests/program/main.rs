@@ -18,3 +18,4 @@ mod recording;
 mod scene;
 mod simulate;
 mod simulate_flags;
+mod study;

@@ -98,6 +98,29 @@ fn flags_arrive_where_they_should() {
 }
 
 #[test]
+fn flags_of_the_laboratory_arrive_where_they_should() {
+    let desk = Desk::new();
+    let path = desk.file("a.mcap");
+    let parts = ["--tool-mm", "100", "--cable", "--cover", "--second-arm", "still", "--far-room"];
+    let depth = ["--gloss", "0.2", "--wander-mm", "5", "--fixed-pattern", "1"];
+    let room = ["--passers-by", "1", "--other-rooms", "0.5", "--occlusion", "0.1"];
+    let arm = ["--one-joint-offset-deg", "1", "--link-length-mm", "4", "--wrist-only"];
+    let ended = simulate(&path, &[&LITTLE[..], &parts, &depth, &room, &arm].concat());
+    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
+    let truth = read_truth(&path).unwrap();
+    let expected = serde_json::json!({
+        "tool_mm": 100.0, "cable": 1.0, "cover": 1.0, "second_arm_still": 1.0, "far_room": 1.0,
+        "gloss": 0.2, "wander_mm": 5.0, "fixed_pattern": 1.0, "passers_by": 1.0, "other_rooms": 0.5,
+        "occlusion": 0.1, "one_joint_offset_deg": 1.0, "link_length_mm": 4.0, "wrist_only": 1.0,
+    });
+    assert_eq!(truth.faults.len(), expected.as_object().unwrap().len(), "{:?}", truth.faults);
+    for (name, value) in expected.as_object().unwrap() {
+        let off = truth.faults[name].as_f64().unwrap() - value.as_f64().unwrap();
+        assert!(off.abs() < 1e-9, "{name}: {off}");
+    }
+}
+
+#[test]
 fn an_existing_file_stays_unless_forced() {
     let desk = Desk::new();
     let path = desk.file("a.mcap");

@@ -20,7 +20,8 @@ fn names_that_are_not_known_are_answered_with_those_that_are() {
     assert_refused(&["--sensor", "kinect-v9"], 2, &[&sensors[..], &["kinect-v9"]].concat());
     let presets: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
     assert_refused(&["--preset", "paper-p9"], 2, &[&presets[..], &["paper-p9"]].concat());
-    assert_refused(&["--robot", "no/arm.urdf"], 1, &["no/arm.urdf", "shackle", "URDF"]);
+    assert_refused(&["--robot", "no/arm.urdf"], 1, &["no/arm.urdf", "shackle", "cleat", "URDF"]);
+    assert_refused(&["--second-arm", "dancing"], 2, &["dancing", "still", "moving"]);
 }
 
 #[test]
@@ -30,7 +31,9 @@ fn counts_are_whole_and_mostly_above_0() {
             assert_refused(&[flag, count], 2, &[count]);
         }
     }
-    for flag in ["--moving-frames", "--backgrounds", "--clutter", "--seed", "--threads"] {
+    for flag in
+        ["--passers-by", "--moving-frames", "--backgrounds", "--clutter", "--seed", "--threads"]
+    {
         assert_refused(&[flag, "few"], 2, &["few"]);
     }
 }
@@ -65,6 +68,14 @@ fn faults_are_numbers_within_reason() {
         ("--time-skew-ms", "-900 to 900000"),
         ("--centre-px", "-10000 to 10000"),
         ("--bump", "0 to 10000"),
+        ("--one-joint-offset-deg", "0 to 90"),
+        ("--link-length-mm", "-100 to 100"),
+        ("--occlusion", "0 to 0.9"),
+        ("--gloss", "0 to 0.9"),
+        ("--wander-mm", "0 to 100"),
+        ("--tool-mm", "0 to 1000"),
+        ("--other-rooms", "0 to 1"),
+        ("--fixed-pattern", "0 to 10"),
     ];
     for (flag, limits) in flags {
         for value in ["nan", "inf", "-inf", "1e9", "-1e9", "much", ""] {

@@ -94,6 +94,11 @@ impl Exposure {
         }
     }
 
+    /// Width and height, pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
     /// The frame with the noise of `random`, 0 where the sensor tells no depth.
     ///
     /// The same bytes on any number of threads.

@@ -1,5 +1,6 @@
 //! An arm that can be posed, drawn and kept from bumping into things.
 
+use super::dress::Soft;
 use super::error::SimulateError;
 use super::scene::TABLE_BELOW_M;
 use super::solids::Solid;
@@ -11,8 +12,8 @@ use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::Point3;
 
 /// An arm with the shapes of its links.
-pub(super) struct ArmBody<'a> {
-    pub(super) arm: &'a Arm,
+pub(super) struct ArmBody {
+    pub(super) arm: Arm,
     /// Which links of the robot the model's are.
     pub(super) links: Vec<usize>,
     pub(super) model: ArmModel,
@@ -24,6 +25,8 @@ pub(super) struct ArmBody<'a> {
     may_touch: Vec<(usize, usize)>,
     /// Of the model's links, those that no joint moves.
     rests: Vec<bool>,
+    /// Around each of the model's links: centre in its frame, radius, metres.
+    spheres: Vec<(Point3<f32>, f32)>,
 }
 
 /// Nothing comes nearer to the arm than this, metres.
@@ -32,18 +35,21 @@ const CLEARANCE_M: f32 = 0.012;
 const TRIALS: u64 = 60;
 const MOSTLY: f64 = 0.5;
 
-impl<'a> ArmBody<'a> {
-    pub(super) fn new(arm: &'a Arm, cache: &LinkCache) -> Result<Self, SimulateError> {
+impl ArmBody {
+    /// `arm` with `soft` parts on it, that are seen and give way.
+    pub(super) fn new(arm: Arm, soft: &[Soft], cache: &LinkCache) -> Result<Self, SimulateError> {
         let robot = arm.robot();
         let below = (0..robot.links.len()).filter(|link| arm.is_below_base(*link));
-        let (links, model) = record::shapes(arm, below.collect(), cache)?;
-        let meshes = links.iter().map(|link| {
-            let link = &robot.links[*link];
-            let read = link_mesh(link, Prefer::Visual);
+        let (links, model) = record::shapes(&arm, below.collect(), cache)?;
+        let meshes = links.iter().map(|index| {
+            let mut link = robot.links[*index].clone();
+            let on_it = soft.iter().filter(|part| part.link == *index);
+            link.visuals.extend(on_it.map(|part| part.body.clone()));
+            let read = link_mesh(&link, Prefer::Visual);
             let failed = |source| record::RecordError::Mesh { link: link.name.clone(), source };
             Ok(read.map_err(failed)?.unwrap_or_default())
         });
-        let meshes = meshes.collect::<Result<_, record::RecordError>>()?;
+        let meshes: Vec<TriangleMesh> = meshes.collect::<Result<_, record::RecordError>>()?;
         let end_effector = arm.end_effector_links();
         let rests = links.iter().map(|link| {
             let mut at = *link;
@@ -56,9 +62,10 @@ impl<'a> ArmBody<'a> {
             true
         });
         let mut body = Self {
-            arm,
             is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
             rests: rests.collect(),
+            spheres: meshes.iter().map(sphere).collect(),
+            arm,
             may_touch: Vec::new(),
             links,
             model,
@@ -143,6 +150,9 @@ impl<'a> ArmBody<'a> {
     }
 
     fn touch(&self, posture: &Posture, (a, b): (usize, usize)) -> bool {
+        if self.are_apart(posture, a, b) {
+            return false;
+        }
         let pose = |link: usize| &posture.base_from_link()[link];
         let (in_a, in_b): (Transform<Link, Base>, Transform<Link, Base>) =
             (pose(a).inverse(), pose(b).inverse());
@@ -154,6 +164,17 @@ impl<'a> ArmBody<'a> {
                 .any(|s| field.sample(&(to_from_of * s.point)).distance_m < CLEARANCE_M)
         };
         near(a, b, in_b * *pose(a)) || near(b, a, in_a * *pose(b))
+    }
+
+    /// Whether the spheres around two links are so far apart that nothing else needs to be looked at:
+    /// nearly all pairs are.
+    fn are_apart(&self, posture: &Posture, a: usize, b: usize) -> bool {
+        let around = |link: usize| {
+            let (centre, radius) = self.spheres[link];
+            (posture.base_from_link()[link].isometry().cast::<f32>() * centre, radius)
+        };
+        let ((a, radius_a), (b, radius_b)) = (around(a), around(b));
+        (a - b).norm() > radius_a + radius_b + 2.0 * CLEARANCE_M
     }
 
     fn mostly_touching(&self) -> Vec<(usize, usize)> {
@@ -181,4 +202,12 @@ impl<'a> ArmBody<'a> {
         let pose = self.arm.base_from_end_effector(joints).ok()?;
         Some(camera_from_base.point(&Point3::from(pose.translation_m())))
     }
+}
+
+/// A sphere around `mesh`.
+fn sphere(mesh: &TriangleMesh) -> (Point3<f32>, f32) {
+    let centre =
+        mesh.bounds().map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high));
+    let distances = mesh.vertices.iter().map(|vertex| (vertex - centre).norm());
+    (centre, distances.fold(0.0, f32::max))
 }

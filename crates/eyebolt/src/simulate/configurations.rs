@@ -42,24 +42,73 @@ enum Fault {
 /// but no more beyond those wanted than this.
 const CHOICE: usize = 8;
 const MOST_SPARE: usize = 150;
-/// Configurations drawn at most, and at a time.
+/// Configurations drawn at most, at each anchor, and at a time.
 const MOST_DRAWN: u64 = 200_000;
+const MOST_DRAWN_ALIKE: u64 = 20_000;
 const BATCH: u64 = 512;
+/// Places that the joints nearer to the base are tried at where they are held.
+const ANCHORS: u64 = 12;
+
+/// Which configurations are wanted.
+struct Wanted {
+    count: usize,
+    /// Joints that stay where they are.
+    held: JointPositions,
+    most_drawn: u64,
+}
 
 /// `count` configurations of `body` that `onlooker` sees well, as different as they can be.
 pub(super) fn choose(
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     onlooker: &Onlooker<'_>,
     count: usize,
     random: Random,
 ) -> Result<Vec<Pose>, SimulateError> {
+    let held = JointPositions::default();
+    choose_wanted(body, onlooker, &Wanted { count, held, most_drawn: MOST_DRAWN }, random)
+}
+
+/// As [`choose`], with only the last half of the joints moving.
+pub(super) fn choose_alike(
+    body: &ArmBody,
+    onlooker: &Onlooker<'_>,
+    count: usize,
+    random: Random,
+) -> Result<Vec<Pose>, SimulateError> {
+    let names = body.arm.required_joints();
+    let held = &names[..names.len().div_ceil(2)];
+    let alike = |place: u64| {
+        let anchor = choose(body, onlooker, 1, random.at(place))?;
+        let at = |name: &&str| Some(((*name).to_owned(), anchor.first()?.joints.get(name)?));
+        let held = held.iter().filter_map(at).collect();
+        let wanted = Wanted { count, held, most_drawn: MOST_DRAWN_ALIKE };
+        choose_wanted(body, onlooker, &wanted, random.at(place).at(0))
+    };
+    // The others only where this one leaves the last joints no room.
+    let first = alike(0);
+    (1..ANCHORS).fold(first, |found, place| found.or_else(|_| alike(place)))
+}
+
+fn choose_wanted(
+    body: &ArmBody,
+    onlooker: &Onlooker<'_>,
+    wanted: &Wanted,
+    random: Random,
+) -> Result<Vec<Pose>, SimulateError> {
+    let Wanted { count, held, most_drawn } = wanted;
+    let count = *count;
     let enough = (CHOICE * count).min(count + MOST_SPARE);
     let mut found: Vec<Pose> = Vec::new();
     let mut rejected = Rejected::default();
-    while found.len() < enough && rejected.drawn < MOST_DRAWN {
+    while found.len() < enough && rejected.drawn < *most_drawn {
         let batch = (rejected.drawn..rejected.drawn + BATCH).into_par_iter().map_init(
             || [Raster::new(onlooker.camera), Raster::new(onlooker.camera)],
-            |rasters, place| good(body, onlooker, &mut random.at(place), rasters),
+            |rasters, place| {
+                let drawn = body.any_joints(&mut random.at(place));
+                let joint =
+                    |(name, at): (&str, f64)| (name.to_owned(), held.get(name).unwrap_or(at));
+                good(body, onlooker, drawn.iter().map(joint).collect(), rasters)
+            },
         );
         for drawn in batch.collect::<Vec<_>>() {
             match drawn {
@@ -79,14 +128,13 @@ pub(super) fn choose(
     Ok(most_spread(&poses, count).into_iter().map(|index| found[index].clone()).collect())
 }
 
-/// The configuration that `random` draws, if it is a good one.
+/// The configuration at `joints`, if it is a good one.
 fn good(
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     onlooker: &Onlooker<'_>,
-    random: &mut Random,
+    joints: JointPositions,
     rasters: &mut [Raster; 2],
 ) -> Result<Pose, Fault> {
-    let joints = body.any_joints(random);
     let in_range = |hand: &Point3<f64>| {
         let ([near, far], [scale, offset_m]) = (onlooker.range_m, onlooker.told_m);
         (1.1 * near..0.95 * far).contains(&(scale * hand.z + offset_m))
@@ -110,7 +158,7 @@ fn good(
 
 /// Whether the room hides some of the arm, as a camera below the table has it.
 fn behind_room(
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     onlooker: &Onlooker<'_>,
     posture: &Posture,
     eye: &Point3<f64>,
@@ -130,7 +178,7 @@ const BORDER_PX: f64 = 4.0;
 
 /// Whether the whole end-effector is in the image, not much hidden, and not seen from its thin side.
 fn shows_hand(
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     onlooker: &Onlooker<'_>,
     posture: &Posture,
     [whole, alone]: &mut [Raster; 2],

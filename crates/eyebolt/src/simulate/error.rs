@@ -3,7 +3,7 @@
 use super::rejected::Rejected;
 use crate::record::RecordError;
 use eyebolt_geometry::CameraError;
-use eyebolt_recording::WriteError;
+use eyebolt_recording::{RecordingError, WriteError};
 use eyebolt_robot::Input;
 
 /// Why something cannot be simulated.
@@ -36,6 +36,9 @@ pub enum SimulateError {
         centre = Input::CENTRE
     )]
     Intrinsics(#[from] CameraError),
+    /// A frame is not one that a source of frames takes.
+    #[error(transparent)]
+    Frame(#[from] RecordingError),
     /// The recording cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -48,7 +51,7 @@ impl SimulateError {
             Self::Unfit { rejected, .. } => Some(rejected.input()),
             Self::BumpOfOne => Some(Input::BUMP),
             Self::Intrinsics(_) => Some(Input::FOCAL_SCALE),
-            Self::Robot(_) | Self::Write(_) => None,
+            Self::Robot(_) | Self::Frame(_) | Self::Write(_) => None,
         }
     }
 }

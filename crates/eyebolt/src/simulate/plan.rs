@@ -1,22 +1,26 @@
 //! Where everything of a simulated recording is.
 
 use super::body::ArmBody;
-use super::configurations::{Onlooker, Pose, choose};
+use super::configurations::{Onlooker, Pose, choose, choose_alike};
+use super::dress::soft_parts;
 use super::error::SimulateError;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::solids::Solid;
+use super::stage::{Stage, stages, usual_size};
 use super::surroundings::in_place;
-use super::{scene, surroundings};
+use super::true_arm::true_arm;
+use super::{occlusion, scene, surroundings};
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{RayScene, SceneMesh};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Where everything is.
 pub struct Plan<'a> {
     pub(super) scenario: Scenario<'a>,
-    pub(super) body: ArmBody<'a>,
+    /// The arm as it is, which may not be as it is described.
+    pub(super) body: ArmBody,
     /// The true intrinsics.
     pub(super) camera: PinholeCamera,
     /// What the recording says they are.
@@ -25,7 +29,10 @@ pub struct Plan<'a> {
     /// Where the camera is after it was bumped, if it is.
     pub(super) bumped: Option<Transform<Base, Camera>>,
     pub(super) poses: Vec<Pose>,
+    /// The room, then the clutter.
     solids: Vec<Solid>,
+    room: usize,
+    stages: Vec<Stage>,
 }
 
 /// Decides where everything of `scenario` is; `cache` keeps shapes of links.
@@ -37,7 +44,11 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
     if scenario.faults.bump.is_some() && scenario.configurations < 2 {
         return Err(SimulateError::BumpOfOne);
     }
-    let body = ArmBody::new(scenario.arm, cache)?;
+    let body = {
+        let arm = true_arm(&scenario);
+        let soft = soft_parts(&scenario, arm.robot());
+        ArmBody::new(arm, &soft, cache)?
+    };
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
@@ -45,7 +56,8 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         scenario.viewpoint.base_from_camera(&mut RandomStream::Viewpoint.of(seed));
     let bumped = scenario.faults.bumped(&base_from_camera, &mut RandomStream::Bump.of(seed));
     let eye = base_from_camera.point(&Point3::origin());
-    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &eye);
+    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &eye, usual_size(&scenario));
+    let walls = solids.len();
     let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
     let onlooker = Onlooker {
         camera: &camera,
@@ -55,9 +67,26 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         room: &room,
     };
     let random = RandomStream::Configurations.of(seed);
-    let poses = choose(&body, &onlooker, scenario.configurations, random)?;
+    let count = scenario.configurations;
+    let poses = match scenario.faults.wrist_only {
+        true => choose_alike(&body, &onlooker, count, random)?,
+        false => choose(&body, &onlooker, count, random)?,
+    };
     solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
-    Ok(Plan { scenario, body, camera, stated_camera, base_from_camera, bumped, poses, solids })
+    solids.extend(occlusion::before(&scenario, &body, &poses, &eye));
+    let stages = stages(&scenario, &body, &poses, &eye);
+    Ok(Plan {
+        scenario,
+        body,
+        camera,
+        stated_camera,
+        base_from_camera,
+        bumped,
+        poses,
+        solids,
+        room: walls,
+        stages,
+    })
 }
 
 impl Plan<'_> {
@@ -66,14 +95,38 @@ impl Plan<'_> {
         self.base_from_camera.inverse()
     }
 
+    /// Centre of the workspace, base frame: the middle of where the end-effector is.
+    pub fn workspace_in_base(&self) -> Point3<f64> {
+        let tip = |pose: &Pose| {
+            let there = self.body.arm.base_from_end_effector(&pose.joints);
+            there.expect("the arm was posed with these joints").translation_m()
+        };
+        Point3::from(self.poses.iter().map(tip).sum::<Vector3<f64>>() / self.poses.len() as f64)
+    }
+
     /// What stands around: the room, then the clutter.
     pub fn solids(&self) -> &[Solid] {
         &self.solids
     }
 
-    /// The links of `arm`, then what stands around.
-    pub(super) fn scene(&self, arm: &[SceneMesh<'_>]) -> RayScene {
-        let around = self.solids.iter().map(in_place);
-        RayScene::new(&arm.iter().copied().chain(around).collect::<Vec<_>>())
+    /// The links of `arm`, then what stands around in a configuration.
+    pub(super) fn scene(&self, arm: &[SceneMesh<'_>], configuration: usize) -> RayScene {
+        self.scene_on(arm, self.stages.get(configuration))
+    }
+
+    /// What stands around when the arm is not there yet: nobody has passed by.
+    pub(super) fn empty_scene(&self) -> RayScene {
+        let beside = self.stages.first().and_then(|stage| stage.beside.clone());
+        self.scene_on(&[], Some(&Stage { beside, ..Stage::default() }))
+    }
+
+    fn scene_on(&self, arm: &[SceneMesh<'_>], stage: Option<&Stage>) -> RayScene {
+        let (usual, things) = self.solids.split_at(self.room);
+        let room = stage.and_then(|stage| stage.other_room.as_deref()).unwrap_or(usual);
+        let passing = stage.map_or(&[][..], |stage| &stage.passing);
+        let beside = stage.and_then(|stage| stage.beside.as_ref());
+        let beside = beside.map_or(Vec::new(), |beside| beside.meshes(&self.body));
+        let around = room.iter().chain(things).chain(passing).map(in_place);
+        RayScene::new(&arm.iter().copied().chain(around).chain(beside).collect::<Vec<_>>())
     }
 }

@@ -13,6 +13,15 @@ pub(super) enum RandomStream {
     Frames,
     Encoders,
     Bump,
+    Link,
+    Occlusion,
+    PassersBy,
+    OtherRooms,
+    SecondArm,
+    Dress,
+    Gloss,
+    Wander,
+    FixedPattern,
 }
 
 impl RandomStream {

@@ -1,22 +1,23 @@
 //! What the camera sees of a plan, as a recording.
 
+use super::aftermath::Shot;
+use super::encoders::Encoders;
 use super::error::SimulateError;
-use super::faults::Encoders;
 use super::plan::Plan;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::viewpoint::Viewpoint;
 use crate::progress::Progress;
-use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_geometry::{Base, Camera, DepthImage, Transform};
 use eyebolt_recording::{CameraMoved, RecordingInfo, RecordingWriter, Truth, WriteError};
-use eyebolt_render::{Exposure, SceneMesh, Specimen};
+use eyebolt_render::{RayScene, Specimen};
 use eyebolt_robot::JointPositions;
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
 /// Name of the simulated camera's frame.
-const FRAME_ID: &str = "camera_depth_optical_frame";
+pub(super) const FRAME_ID: &str = "camera_depth_optical_frame";
 
 impl Plan<'_> {
     /// Writes the recording as MCAP to `output`. Memory does not grow with its length.
@@ -51,7 +52,7 @@ impl Plan<'_> {
         let mut done = 0;
         for (index, pose) in self.poses.iter().enumerate() {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
-            let mut resting: Option<Exposure> = None;
+            let mut resting: Option<Shot> = None;
             for moment in timeline.moments(index, before, &pose.joints) {
                 let Event::Frame { at_rest } = moment.event else {
                     let read = encoders.read(&moment.joints, before, &pose.joints);
@@ -60,11 +61,10 @@ impl Plan<'_> {
                 };
                 told(scenario.backgrounds + done)?;
                 let known = resting.take();
-                let exposure =
-                    known.unwrap_or_else(|| self.look(&moment.joints, self.pose_at(index)));
-                let frame = exposure.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
+                let shot = known.unwrap_or_else(|| self.look(&moment.joints, index));
+                let frame = shot.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
                 writer.depth(self.skewed_ns(moment.stamp_ns), &frame)?;
-                resting = at_rest.then_some(exposure);
+                resting = at_rest.then_some(shot);
                 done += 1;
             }
         }
@@ -87,38 +87,48 @@ impl Plan<'_> {
         if self.scenario.backgrounds == 0 {
             return Ok(());
         }
-        let exposure = self.look_at(&[], &self.base_from_camera);
-        let random = RandomStream::Frames.of(self.scenario.seed).at(u64::MAX);
-        (0..self.scenario.backgrounds).try_for_each(|index| {
+        let frames = self.backgrounds();
+        (0..self.scenario.backgrounds).zip(frames).try_for_each(|(index, frame)| {
             told(index)?;
-            writer.background(background_stamp_ns(index), &exposure.frame(random.at(index as u64)))
+            writer.background(background_stamp_ns(index), &frame)
         })
     }
 
-    /// What the camera sees with the arm at `joints`.
-    fn look(
-        &self,
-        joints: &JointPositions,
-        base_from_camera: &Transform<Base, Camera>,
-    ) -> Exposure {
+    /// Frames without the arm, without end.
+    pub(super) fn backgrounds(&self) -> impl Iterator<Item = DepthImage> + use<> {
+        let scene = self.empty_scene();
+        let shot = self.look_at(&scene, &self.base_from_camera, None);
+        let random = RandomStream::Frames.of(self.scenario.seed).at(u64::MAX);
+        (0..).map(move |index| shot.frame(random.at(index)))
+    }
+
+    /// What the camera sees while the arm rests in a configuration.
+    pub(super) fn look_at_rest(&self, configuration: usize) -> Shot {
+        self.look(&self.poses[configuration].joints, configuration)
+    }
+
+    /// What the camera sees with the arm at `joints`, on the way to a configuration or there.
+    fn look(&self, joints: &JointPositions, configuration: usize) -> Shot {
         let posture = self.body.posture(joints);
         let posture = posture.expect("the arm was posed with these joints, or others between them");
-        self.look_at(&self.body.scene_meshes(&posture), base_from_camera)
+        let scene = self.scene(&self.body.scene_meshes(&posture), configuration);
+        self.look_at(&scene, self.pose_at(configuration), Some(configuration))
     }
 
     fn look_at(
         &self,
-        arm: &[SceneMesh<'_>],
+        scene: &RayScene,
         base_from_camera: &Transform<Base, Camera>,
-    ) -> Exposure {
-        let scene = self.scene(arm);
+        configuration: Option<usize>,
+    ) -> Shot {
         let faults = &self.scenario.faults;
         let specimen = Specimen {
             random: RandomStream::Specimen.of(self.scenario.seed),
             depth_scale: faults.depth_scale,
             depth_offset_m: faults.depth_offset_m,
         };
-        self.scenario.sensor.look(&scene, &self.camera, base_from_camera, &specimen)
+        let exposure = self.scenario.sensor.look(scene, &self.camera, base_from_camera, &specimen);
+        self.shoot(scene, base_from_camera, exposure, configuration)
     }
 
     /// Where the camera is while the arm goes to, and rests in, a configuration.
@@ -137,7 +147,7 @@ impl Plan<'_> {
         stamp_ns + (1e9 * self.scenario.faults.time_skew_s) as i64
     }
 
-    fn encoders(&self) -> Encoders {
+    pub(super) fn encoders(&self) -> Encoders {
         let Scenario { arm, faults, seed, .. } = &self.scenario;
         Encoders::new(arm, faults, &mut RandomStream::Encoders.of(*seed))
     }
@@ -148,17 +158,21 @@ impl Plan<'_> {
         self.camera_from_base() * self.encoders().base_from_told_base(self.scenario.arm)
     }
 
+    /// As [`Self::sought_camera_from_base`] after the camera was bumped, if it was.
+    pub fn sought_camera_from_base_after(&self) -> Option<Transform<Camera, Base>> {
+        let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len())?;
+        Some(after.inverse() * self.encoders().base_from_told_base(self.scenario.arm))
+    }
+
     /// How much farther each joint that turns stands than it says, radians.
     pub fn joint_offsets(&self) -> BTreeMap<String, f64> {
         self.encoders().offsets()
     }
 
     fn truth(&self, timeline: &Timeline) -> Truth {
-        let base_from_told = self.encoders().base_from_told_base(self.scenario.arm);
-        let after = self.bumped.filter(|_| self.bumped_at() < self.poses.len());
-        let after = after.map(|base_from_camera| CameraMoved {
+        let after = self.sought_camera_from_base_after().map(|camera_from_base| CameraMoved {
             stamp_ns: self.skewed_ns(timeline.begin_ns(self.bumped_at())),
-            camera_from_base: base_from_camera.inverse() * base_from_told,
+            camera_from_base,
         });
         let preset = match self.scenario.viewpoint {
             Viewpoint::Preset(preset) => Some(preset.name.to_owned()),

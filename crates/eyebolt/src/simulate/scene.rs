@@ -15,23 +15,29 @@ const TABLE_HALF_M: [f64; 2] = [0.75, 0.80];
 const TABLE_MIDDLE_M: [f64; 2] = [0.35, 0.0];
 const TABLE_HEIGHT_M: f64 = 0.75;
 
-/// Half the breadth of floor and walls, metres, and how far walls are behind the camera at least.
-const ROOM_HALF_M: f64 = 4.5;
+/// How far walls are from the arm, and half the breadth of floor and walls, metres.
+#[derive(Clone, Copy)]
+pub struct RoomSize {
+    walls_m: [f64; 2],
+    half_m: f64,
+}
+
+/// A usual room, and a hall.
+pub const ROOM: RoomSize = RoomSize { walls_m: [1.9, 3.4], half_m: 4.5 };
+pub const HALL: RoomSize = RoomSize { walls_m: [4.0, 6.0], half_m: 7.0 };
+/// How far walls are behind the camera at least, metres.
 const BEHIND_CAMERA_M: f64 = 0.3;
 
 /// The room around an arm and a camera at `eye` (base frame): what never comes nearer to the arm
 /// than the table does, nor between the two.
-pub fn room(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
+pub fn room(random: &mut Random, eye: &Point3<f64>, size: RoomSize) -> Vec<Solid> {
+    let RoomSize { walls_m: [near, far], half_m } = size;
     let top = -TABLE_BELOW_M;
     let [x, y] = TABLE_MIDDLE_M;
     let [half_x, half_y] = TABLE_HALF_M;
     let mut solids = vec![
         cuboid("table", [x, y, top - 0.02], [2.0 * half_x, 2.0 * half_y, 0.04]),
-        cuboid(
-            "floor",
-            [0.0, 0.0, -TABLE_HEIGHT_M - 0.05],
-            [2.0 * ROOM_HALF_M, 2.0 * ROOM_HALF_M, 0.1],
-        ),
+        cuboid("floor", [0.0, 0.0, -TABLE_HEIGHT_M - 0.05], [2.0 * half_m, 2.0 * half_m, 0.1]),
     ];
     let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
     solids.extend(corners.map(|[sx, sy]| {
@@ -40,9 +46,9 @@ pub fn room(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
     }));
     // Walls on all four sides, at a distance of their own.
     for (axis, sign) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)] {
-        let far = random.between(1.9, 3.4).max(sign * eye[axis] + BEHIND_CAMERA_M);
+        let far = random.between(near, far).max(sign * eye[axis] + BEHIND_CAMERA_M);
         let mut at = [0.0, 0.0, 0.8];
-        let mut size = [2.0 * ROOM_HALF_M; 3];
+        let mut size = [2.0 * half_m; 3];
         size[2] = 3.4;
         at[axis] = sign * far;
         size[axis] = 0.1;
@@ -60,6 +66,11 @@ pub fn clutter(random: &mut Random) -> Solid {
         7..=8 => cable(random),
         _ => person(random),
     }
+}
+
+/// Somebody or something that is not always there.
+pub fn passer_by(random: &mut Random) -> Solid {
+    if random.uniform() < 0.5 { person(random) } else { clutter(random) }
 }
 
 fn on_table(random: &mut Random, margin: f64) -> Vector3<f64> {

@@ -4,10 +4,10 @@ use super::body::ArmBody;
 use super::configurations::Pose;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
-use super::scene::clutter;
+use super::scene::{clutter, passer_by};
 use super::solids::Solid;
 use eyebolt_geometry::Transform;
-use eyebolt_render::{RayScene, SceneMesh};
+use eyebolt_render::{Random, RayScene, SceneMesh};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -21,19 +21,45 @@ const CAMERA_CLEARANCE_M: f64 = 0.5;
 /// The clutter of `scenario`, out of the way of the arm in `poses` as seen from `eye` (base frame).
 pub(super) fn clutter_about(
     scenario: &Scenario<'_>,
-    body: &ArmBody<'_>,
+    body: &ArmBody,
     poses: &[Pose],
     eye: &Point3<f64>,
 ) -> Vec<Solid> {
     let random = RandomStream::Clutter.of(scenario.seed);
-    let things = (0..scenario.clutter as u64).into_par_iter().filter_map(|thing| {
-        let mut tries = (0..TRIES).map(|place| clutter(&mut random.at(thing).at(place)));
-        tries.find(|solid| is_out_of_the_way(solid, body, poses, eye))
+    let fits = |solid: &Solid| is_out_of_the_way(solid, body, poses, eye);
+    put(scenario.clutter, random, clutter, fits)
+}
+
+/// Those who pass by while the arm of `scenario` rests in each of `poses`.
+pub(super) fn passers_by(
+    scenario: &Scenario<'_>,
+    body: &ArmBody,
+    poses: &[Pose],
+    eye: &Point3<f64>,
+) -> Vec<Vec<Solid>> {
+    let random = RandomStream::PassersBy.of(scenario.seed);
+    let of_pose = |(index, pose): (usize, &Pose)| {
+        let fits = |solid: &Solid| is_out_of_the_way(solid, body, std::slice::from_ref(pose), eye);
+        put(scenario.faults.lab.passers_by, random.at(index as u64), passer_by, fits)
+    };
+    poses.iter().enumerate().map(of_pose).collect()
+}
+
+/// As many things as there is room for, of `count` that `draw` makes.
+fn put(
+    count: usize,
+    random: Random,
+    draw: fn(&mut Random) -> Solid,
+    fits: impl Fn(&Solid) -> bool + Sync,
+) -> Vec<Solid> {
+    let things = (0..count as u64).into_par_iter().filter_map(|thing| {
+        let mut tries = (0..TRIES).map(|place| draw(&mut random.at(thing).at(place)));
+        tries.find(&fits)
     });
     things.collect()
 }
 
-fn is_out_of_the_way(solid: &Solid, body: &ArmBody<'_>, poses: &[Pose], eye: &Point3<f64>) -> bool {
+fn is_out_of_the_way(solid: &Solid, body: &ArmBody, poses: &[Pose], eye: &Point3<f64>) -> bool {
     let far = |vertex: &Point3<f32>| (vertex.cast::<f64>() - eye).norm() > CAMERA_CLEARANCE_M;
     if !solid.mesh.vertices.iter().all(far) {
         return false;

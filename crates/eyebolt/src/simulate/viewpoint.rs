@@ -75,6 +75,8 @@ impl Preset {
 /// Ranges, least and greatest, of where a camera stands about what it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranges {
+    /// Middle of the workspace, base frame, metres: what the camera looks at.
+    pub workspace_m: [f64; 3],
     /// Distance from the middle of the workspace, metres.
     pub distance_m: [f64; 2],
     /// Direction from there in the plane of the table, from the base's x toward its y, radians.
@@ -87,14 +89,18 @@ pub struct Ranges {
 }
 
 impl Default for Ranges {
-    /// On a tripod before or beside the table, or on a shelf above it.
+    /// On a tripod before or beside the table, or on a shelf above it; looks at where arms of 0.85 m
+    /// mostly work: before them, at the height of an elbow.
     fn default() -> Self {
-        Self { distance_m: [0.95, 1.5], azimuth: [-1.9, 1.9], elevation: [0.15, 0.85], askew: 0.14 }
+        Self {
+            workspace_m: [0.40, 0.0, 0.34],
+            distance_m: [0.95, 1.5],
+            azimuth: [-1.9, 1.9],
+            elevation: [0.15, 0.85],
+            askew: 0.14,
+        }
     }
 }
-
-/// Where arms mostly work, base frame, metres: before them, at the height of an elbow.
-const WORKSPACE_M: Vector3<f64> = Vector3::new(0.40, 0.0, 0.34);
 
 impl Viewpoint {
     /// The pose.
@@ -110,7 +116,8 @@ impl Viewpoint {
         let away = elevation.cos() * level + elevation.sin() * Vector3::z();
         let mut askew = || random.between(-ranges.askew, ranges.askew);
         let turn = UnitQuaternion::from_euler_angles(askew(), askew(), askew());
-        Transform::from_parts(WORKSPACE_M + distance * away, looking_along(&-away) * turn)
+        let workspace = Vector3::from(ranges.workspace_m);
+        Transform::from_parts(workspace + distance * away, looking_along(&-away) * turn)
     }
 }
 
@@ -144,9 +151,10 @@ mod tests {
             elevation in ordered(-1.5, 1.5),
             askew in 0.0..0.3_f64,
         ) {
-            let ranges = Ranges { distance_m, azimuth, elevation, askew };
+            let ranges = Ranges { distance_m, azimuth, elevation, askew, ..Ranges::default() };
+            let looked_at = Vector3::from(ranges.workspace_m);
             let pose = Viewpoint::Within(ranges).base_from_camera(&mut Random::new(seed));
-            let away = pose.translation_m() - WORKSPACE_M;
+            let away = pose.translation_m() - looked_at;
             let within = |value: f64, [low, high]: [f64; 2]| {
                 (low - 1e-9..=high + 1e-9).contains(&value)
             };
@@ -154,7 +162,7 @@ mod tests {
             prop_assert!(within(away.y.atan2(away.x), azimuth));
             prop_assert!(within((away.z / away.norm()).asin(), elevation));
             // Two turns of `askew` at right angles take the axis off the workspace, the third none.
-            let workspace = pose.inverse().point(&Point3::from(WORKSPACE_M));
+            let workspace = pose.inverse().point(&Point3::from(looked_at));
             let off_axis = workspace.coords.xy().norm().atan2(workspace.z);
             prop_assert!(off_axis <= 2f64.sqrt() * askew + 1e-9, "{off_axis}");
         }
@@ -165,7 +173,7 @@ mod tests {
         fn straight_cameras_are_level(seed: u64) {
             let ranges = Ranges { askew: 0.0, ..Ranges::default() };
             let pose = Viewpoint::Within(ranges).base_from_camera(&mut Random::new(seed));
-            let workspace = pose.inverse().point(&Point3::from(WORKSPACE_M));
+            let workspace = pose.inverse().point(&Point3::from(ranges.workspace_m));
             prop_assert!(workspace.coords.xy().norm() < 1e-9 && workspace.z > 0.0);
             let [x, y] = [Vector3::x(), Vector3::y()].map(|axis| pose.direction(&axis));
             prop_assert!(x.z.abs() < 1e-9 && y.z < 0.0);

@@ -1,7 +1,7 @@
 //! What goes wrong on purpose goes wrong where it should, and nowhere else.
 
 use crate::stage::{ARM, AS_SAID, CACHE, Recorded, SENSOR, apart, assert_same, planned, small};
-use eyebolt::simulate::{Faults, Scenario, SimulateError, plan};
+use eyebolt::simulate::{Faults, Lab, Scenario, SecondArm, SimulateError, plan};
 use eyebolt_robot::{Input, JointPositions};
 use nalgebra::Vector3;
 use serde_json::json;
@@ -146,12 +146,31 @@ fn faults_are_named_with_their_units() {
         joint_offset_sigma: 0.5f64.to_radians(),
         backlash: 2f64.to_radians(),
         time_skew_s: 0.05,
+        one_joint_offset: 1.5f64.to_radians(),
+        link_length_m: 0.006,
+        wrist_only: true,
+        occlusion: 0.25,
         bump: Some([0.02, 3f64.to_radians()]),
+        lab: Lab {
+            gloss: 0.2,
+            far_room: true,
+            wander_m: 0.01,
+            tool_m: 0.1,
+            cable: true,
+            cover: true,
+            passers_by: 2,
+            other_rooms: 0.5,
+            second_arm: SecondArm::Moving,
+            fixed_pattern: 1.5,
+        },
     };
     let expected = json!({
         "depth_scale": 1.01, "depth_offset_mm": 3.0, "focal_scale": 0.99, "centre_x_px": 1.0,
         "centre_y_px": 2.0, "joint_offset_deg": 1.0, "joint_offset_sigma_deg": 0.5, "backlash_deg": 2.0,
-        "time_skew_ms": 50.0, "bump_mm": 20.0, "bump_deg": 3.0,
+        "time_skew_ms": 50.0, "bump_mm": 20.0, "bump_deg": 3.0, "one_joint_offset_deg": 1.5,
+        "link_length_mm": 6.0, "wrist_only": 1.0, "occlusion": 0.25, "gloss": 0.2, "far_room": 1.0,
+        "wander_mm": 10.0, "tool_mm": 100.0, "cable": 1.0, "cover": 1.0, "passers_by": 2.0,
+        "other_rooms": 0.5, "second_arm_moving": 1.0, "fixed_pattern": 1.5,
     });
     let named = faults.named();
     assert_eq!(named.len(), expected.as_object().unwrap().len());

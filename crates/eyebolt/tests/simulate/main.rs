@@ -3,9 +3,12 @@
 
 mod answers;
 mod configurations;
+mod description;
 mod evaluation;
 mod faults;
+mod in_memory;
 mod joint_offsets;
+mod lab;
 mod labels;
 mod motion;
 mod presets;

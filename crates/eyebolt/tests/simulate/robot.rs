@@ -1,6 +1,7 @@
 //! The built-in robot is a Panda but for its shape.
 
 use crate::stage::{ARM, shackle};
+use eyebolt::robots::BUILT_IN;
 use eyebolt_render::Random;
 use eyebolt_robot::{Arm, JointPositions, PackageRoots, Prefer, Robot, link_mesh};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -8,16 +9,44 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::io::Write;
 
 #[test]
-fn every_link_has_a_shape_and_needs_no_file() {
-    for link in &ARM.robot().links {
-        let mesh = link_mesh(link, Prefer::Visual).unwrap();
-        let mesh = mesh.unwrap_or_else(|| panic!("{} has no shape", link.name));
-        let (low, high) = mesh.bounds().unwrap();
-        assert!((high - low).min() > 0.005 && (high - low).max() < 0.5, "{}", link.name);
+fn every_link_of_every_robot_has_a_shape_and_needs_no_file() {
+    for (robot, joints) in BUILT_IN.iter().zip([7, 6, 7, 5]) {
+        let arm = robot.arm();
+        for link in &arm.robot().links {
+            let mesh = link_mesh(link, Prefer::Visual).unwrap();
+            let mesh = mesh.unwrap_or_else(|| panic!("{} has no shape", link.name));
+            let (low, high) = mesh.bounds().unwrap();
+            assert!((high - low).min() > 0.005 && (high - low).max() < 0.6, "{}", link.name);
+        }
+        assert!(!robot.urdf.contains("filename"));
+        assert_eq!(robot.name, arm.robot().name);
+        assert_eq!(arm.required_joints().len(), joints);
     }
-    assert!(!shackle().urdf.contains("filename"));
     assert_eq!(shackle().name, ARM.robot().name);
-    assert_eq!(ARM.required_joints().len(), 7);
+}
+
+/// No posture of many reaches farther than stated, and some reach nearly as far.
+#[test]
+fn robots_reach_as_far_as_is_stated() {
+    for robot in BUILT_IN {
+        let (arm, reach_m) = (robot.arm(), robot.about().reach_m);
+        let mut random = Random::new(5);
+        let mut reach = || {
+            let limits = |name: &&str| {
+                let robot = arm.robot();
+                let joint = &robot.joints[robot.joint_index(name).unwrap()];
+                let limits = joint.limits.unwrap();
+                ((*name).to_owned(), random.between(limits.lower, limits.upper))
+            };
+            let joints: JointPositions = arm.required_joints().iter().map(limits).collect();
+            let first =
+                &arm.robot().joints[arm.robot().joint_index(arm.required_joints()[0]).unwrap()];
+            let shoulder = first.parent_from_child_at_zero.translation_m();
+            (arm.base_from_end_effector(&joints).unwrap().translation_m() - shoulder).norm()
+        };
+        let farthest = (0..20_000).map(|_| reach()).fold(0.0, f64::max);
+        assert!((0.8..1.2).contains(&(farthest / reach_m)), "{}: {farthest}", robot.name);
+    }
 }
 
 /// Joint positions that any of its joints can have: `joint1` and so on, after `prefix`.
