@@ -225,13 +225,13 @@ fn start_translation(
     let spread = |to: &Vector3<f32>, all: &[Vector3<f32>]| -> f32 {
         all.iter().map(|t| (t - to).norm()).sum::<f32>() / all.len().max(1) as f32
     };
-    let best = views.iter().flatten().map(|to| (to, supporters(to))).max_by(|(a, by_a), (b, by_b)| {
-        let tighter = || spread(b, by_b).total_cmp(&spread(a, by_a));
-        by_a.len().cmp(&by_b.len()).then_with(tighter)
-    });
-    let translation = best.map_or(Vector3::zeros(), |(_, all)| {
-        all.iter().sum::<Vector3<f32>>() / all.len() as f32
-    });
+    let best =
+        views.iter().flatten().map(|to| (to, supporters(to))).max_by(|(a, by_a), (b, by_b)| {
+            let tighter = || spread(b, by_b).total_cmp(&spread(a, by_a));
+            by_a.len().cmp(&by_b.len()).then_with(tighter)
+        });
+    let translation = best
+        .map_or(Vector3::zeros(), |(_, all)| all.iter().sum::<Vector3<f32>>() / all.len() as f32);
     Isometry3::from_parts(Translation3::from(translation.cast::<f64>()), *base_from_camera)
 }
 

@@ -110,7 +110,10 @@ impl Session<'_> {
         }
         if let Some(refinement) = &found.refinement {
             let degrees = |rad: &[f64]| {
-                rad.iter().map(|rad| format!("{:.2}", rad.to_degrees())).collect::<Vec<_>>().join(" ")
+                rad.iter()
+                    .map(|rad| format!("{:.2}", rad.to_degrees()))
+                    .collect::<Vec<_>>()
+                    .join(" ")
             };
             println!("    nuisances {:?} {:?}", refinement.nuisances, refinement.intrinsics);
             println!("    joint offsets {}", degrees(&refinement.joint_offsets.rad));
@@ -165,7 +168,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => folders.push(argument),
         }
     }
-    let print = |folder: &String| explore(Path::new(folder), &flags).map_err(|e| format!("{folder}: {e}"));
+    let print =
+        |folder: &String| explore(Path::new(folder), &flags).map_err(|e| format!("{folder}: {e}"));
     folders.par_iter().map(print).collect::<Result<Vec<()>, String>>()?;
     Ok(())
 }
@@ -195,7 +199,8 @@ fn explore(folder: &Path, flags: &Flags) -> Result<(), Box<dyn Error>> {
         let found = session.calibrate(&Part::new(session.source, triple.to_vec()))?;
         Ok((format!("{triple:?}"), found))
     });
-    let parts: Vec<(String, Calibration)> = parts.collect::<Result<_, eyebolt::pipeline::Failure>>()?;
+    let parts: Vec<(String, Calibration)> =
+        parts.collect::<Result<_, eyebolt::pipeline::Failure>>()?;
     for (what, found) in &parts {
         session.line(what, found, sought.as_ref());
     }
@@ -217,7 +222,11 @@ fn explore(folder: &Path, flags: &Flags) -> Result<(), Box<dyn Error>> {
                 }
                 let exchanged = Some([a.clone(), b.clone()]);
                 let part = Part { exchanged, ..Part::new(session.source, all.clone()) };
-                session.line(&format!("exchange {i} {j}"), &session.calibrate(&part)?, sought.as_ref());
+                session.line(
+                    &format!("exchange {i} {j}"),
+                    &session.calibrate(&part)?,
+                    sought.as_ref(),
+                );
             }
         }
     }
@@ -230,7 +239,8 @@ fn truth(path: &Path) -> Result<Option<Transform<Camera, Base>>, Box<dyn Error>>
     let value: serde_json::Value = serde_json::from_str(&text)?;
     let rows: [[f64; 4]; 4] = serde_json::from_value(value["camera_from_base"].clone())?;
     let matrix = Matrix4::from_fn(|r, c| rows[r][c]);
-    let rotation = nalgebra::UnitQuaternion::from_matrix(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
+    let rotation =
+        nalgebra::UnitQuaternion::from_matrix(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
     let translation = matrix.fixed_view::<3, 1>(0, 3).into_owned();
     let pose = Isometry3::from_parts(translation.into(), rotation);
     Ok(Some(Transform::from_isometry(pose)))

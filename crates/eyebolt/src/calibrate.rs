@@ -3,6 +3,7 @@
 mod calibration;
 mod deviation;
 mod error;
+mod exchanged;
 mod jackknife;
 mod judge;
 mod limits;

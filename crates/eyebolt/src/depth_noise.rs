@@ -81,7 +81,8 @@ fn most_alike(images: &[&DepthImage], own: usize) -> Option<usize> {
     let others: Vec<usize> = (0..images.len()).filter(|other| *other != own).collect();
     let apart = |other: usize| {
         let pairs = compared(images[own], images[other], FEW_SAMPLES);
-        let mut differences: Vec<f64> = pairs.map(|(_, difference)| f64::from(difference)).collect();
+        let mut differences: Vec<f64> =
+            pairs.map(|(_, difference)| f64::from(difference)).collect();
         Some((other, median(&mut differences)?))
     };
     let all = evenly(&others, MOST_OTHERS).into_iter().filter_map(apart);

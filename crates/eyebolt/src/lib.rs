@@ -2,8 +2,8 @@
 
 pub mod answer;
 pub mod calibrate;
-pub mod evaluate;
 pub mod depth_noise;
+pub mod evaluate;
 mod evenly;
 pub mod export;
 pub mod info;

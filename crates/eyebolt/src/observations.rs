@@ -91,6 +91,9 @@ pub struct Configuration {
     pub base_from_end_effector: Transform<Base, EndEffector>,
     /// Where they put the links.
     pub posture: Posture,
+    /// Where the joints of the arm's model say they are, radians, in the order of
+    /// [`ArmModel::joints`].
+    pub joints_rad: Vec<f64>,
 }
 
 impl Observations {

@@ -54,9 +54,6 @@ pub(super) fn estimate(
     for joint in (0..MOST_JOINTS).filter(|joint| gauge[*joint]) {
         offsets[joint] = LARGEST_RAD;
     }
-    if std::env::var_os("EYEBOLT_DEBUG2").is_some() {
-        println!("    prior: {}", (0..OFFSETS).map(|i| format!("{:.4}+-{:.4}", offsets[i], covariance[(i,i)].sqrt())).collect::<Vec<_>>().join(" "));
-    }
     let found = most_likely(&offsets, &covariance, apart);
     OffsetDeviations::from_fn(|offset| found[offset])
 }

@@ -13,10 +13,7 @@ pub(super) struct Prior {
 }
 
 /// Which unknowns have a prior, and where they are in it.
-pub(super) fn priors(
-    state: &State,
-    deviations: &OffsetDeviations,
-) -> impl Iterator<Item = Prior> {
+pub(super) fn priors(state: &State, deviations: &OffsetDeviations) -> impl Iterator<Item = Prior> {
     let nuisances = state.nuisances.into_iter().zip(KINDS).enumerate();
     let of_kind =
         |(kind, (value, evidence)): (usize, (f64, &dyn crate::evidence::EvidenceKind))| {
@@ -25,18 +22,16 @@ pub(super) fn priors(
         };
     let deviations = *deviations;
     let offsets = state.offsets().into_iter().enumerate();
-    let of_offset = move |(offset, value)| {
-        Prior { unknown: FIRST_JOINT + offset, value, deviation: deviations.of(offset) }
+    let of_offset = move |(offset, value)| Prior {
+        unknown: FIRST_JOINT + offset,
+        value,
+        deviation: deviations.of(offset),
     };
     nuisances.map(of_kind).chain(offsets.map(of_offset))
 }
 
 /// `sum` with the priors added.
-pub(super) fn with_priors(
-    mut sum: Sum,
-    state: &State,
-    deviations: &OffsetDeviations,
-) -> Sum {
+pub(super) fn with_priors(mut sum: Sum, state: &State, deviations: &OffsetDeviations) -> Sum {
     for prior in priors(state, deviations) {
         sum.add(&Unknowns::ith(prior.unknown, 1.0), prior.value, prior.deviation.powi(-2));
     }

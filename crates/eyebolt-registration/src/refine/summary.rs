@@ -2,8 +2,8 @@
 
 use super::covariance::sandwich;
 use super::gather::ViewFactors;
-use super::offset_prior::under_open_prior;
 use super::left_out::without_each;
+use super::offset_prior::under_open_prior;
 use super::outcome::{Fit, Refinement, StopReason, ViewFit};
 use super::priors::with_priors;
 use super::start::OffsetDeviations;

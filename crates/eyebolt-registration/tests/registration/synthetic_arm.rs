@@ -88,7 +88,13 @@ pub struct Scene {
 
 impl Scene {
     pub fn view(&self) -> View<'_> {
-        View { camera: &CAMERA, depth: &self.depth, depth_factor: 1.0, mask: Some(&self.mask), posture: self.posture }
+        View {
+            camera: &CAMERA,
+            depth: &self.depth,
+            depth_factor: 1.0,
+            mask: Some(&self.mask),
+            posture: self.posture,
+        }
     }
 
     /// Points of the pixels at least `rim` pixels inside the mask, on every `stride`-th row and

@@ -2,6 +2,7 @@
 
 use super::calibration::Calibration;
 use super::error;
+use super::exchanged::exchanged;
 use super::jackknife::Jackknife;
 use super::limits::Limits;
 use super::verdict::{Findings, judge, nothing_found};
@@ -35,14 +36,15 @@ pub fn calibrate(
     progress.advance(2, 3)?;
     let end = refinement.end();
     let rival = refined.rival.is_some_and(|rival| stands(&mut workspace, &rival, &end));
+    let exchanged = exchanged(observations, &workspace.indices, &end);
     let findings = Findings {
         refinement: &refinement,
         joints: observations.arm.joints(),
         outcomes: &configurations,
         outside_limits,
         error: &error,
+        exchanged,
         rival,
-        masks: observations.has_masks(),
     };
     let verdict = judge(&findings, limits);
     tracing::debug!(?verdict, rival, expected = ?error.expected, "judged");

@@ -85,23 +85,21 @@ pub enum Reason {
         /// Allowed, either way, degrees.
         limit_deg: f64,
     },
+    /// The arm fits better with two joints exchanged.
+    #[error(
+        "the arm fits better with the positions of joints {:?} and {:?} exchanged: check that joint names \
+         and order are this arm's", joints[0], joints[1]
+    )]
+    JointsExchanged {
+        /// Their names.
+        joints: [String; 2],
+    },
     /// The camera sees through the posed arm.
     #[error(
-        "{percent:.0} % of the posed arm's pixels are contradicted by depth or mask (at most \
-         {limit:.0} % are trusted): the robot description or the joints are not this arm's"
+        "{percent:.0} % of the posed arm's pixels show the scene behind it, or lie outside its mask (at \
+         most {limit:.0} % are trusted): the robot description or the joints are not this arm's"
     )]
     Contradicted {
-        /// Percent of the pixels.
-        percent: f64,
-        /// Percent allowed.
-        limit: f64,
-    },
-    /// The posed arm does not explain what was seen.
-    #[error(
-        "{percent:.0} % of the arm's pixels are not on the posed arm (at most {limit:.0} % are \
-         trusted): the robot description lacks a part, or is not this arm's"
-    )]
-    Unexplained {
         /// Percent of the pixels.
         percent: f64,
         /// Percent allowed.

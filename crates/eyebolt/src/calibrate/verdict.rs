@@ -18,12 +18,9 @@ const OUTSIDE_M: f64 = 0.01;
 const JOINT_OFF_RAD: f64 = 0.035;
 /// An offset of the first joint counts from where it is surely not zero: beyond its 95 percent interval.
 const FIRST_JOINT_SIGMAS: f64 = 2.0;
-/// Share of the posed arm's pixels that may be contradicted: rims and masks are never exact.
-const CONTRADICTED_SHARE: f64 = 0.25;
-/// Share of the masked pixels that the posed arm need not explain: tools and cables.
-const UNEXPLAINED_OF_MASKS: f64 = 0.25;
-/// Likewise of what moved, which shadows and reflections add to.
-const UNEXPLAINED_OF_MOVING: f64 = 0.45;
+/// Share of the posed arm's pixels that may show the scene behind it. Of a right pose's, clear of its
+/// outline, hardly any do; the failures of depth on glossy links do not look like the scene.
+const CONTRADICTED_SHARE: f64 = 0.05;
 /// A last step larger than this says that the refinement was still on its way.
 const SETTLED_M: f64 = 2e-3;
 const SETTLED_RAD: f64 = 2e-3;
@@ -36,9 +33,10 @@ pub(crate) struct Findings<'a> {
     pub outcomes: &'a [ConfigurationOutcome],
     pub outside_limits: &'a [OutsideLimits],
     pub error: &'a ErrorEstimate,
+    /// Two joints that fit better with their names exchanged.
+    pub exchanged: Option<[String; 2]>,
     /// Whether another pose explains nearly as much.
     pub rival: bool,
-    pub masks: bool,
 }
 
 /// The verdict where there is no pose at all.
@@ -62,6 +60,7 @@ pub(crate) fn judge(findings: &Findings<'_>, limits: &Limits) -> Verdict {
         reasons.push(Reason::Underdetermined);
         return Verdict::Refused(reasons);
     }
+    reasons.extend(findings.exchanged.clone().map(|joints| Reason::JointsExchanged { joints }));
     reasons.extend(joint_off(findings));
     reasons.extend(disagreement(findings));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
@@ -131,22 +130,15 @@ fn stopped(refinement: &Refinement) -> Option<Reason> {
 fn disagreement(findings: &Findings<'_>) -> Vec<Reason> {
     let views: Vec<Agreement> = findings.outcomes.iter().filter_map(|o| o.agreement).collect();
     let all = total(&views);
-    let unexplained_limit =
-        if findings.masks { UNEXPLAINED_OF_MASKS } else { UNEXPLAINED_OF_MOVING };
-    let (contradicted, unexplained) = (all.contradicted_share(), all.unexplained_share());
     if !all.is_in_view() {
         return vec![Reason::OutOfView];
     }
-    let mut reasons = Vec::new();
-    if contradicted > CONTRADICTED_SHARE {
-        let (percent, limit) = (100.0 * contradicted, 100.0 * CONTRADICTED_SHARE);
-        reasons.push(Reason::Contradicted { percent, limit });
+    let contradicted = all.contradicted_share();
+    let (percent, limit) = (100.0 * contradicted, 100.0 * CONTRADICTED_SHARE);
+    match contradicted > CONTRADICTED_SHARE {
+        true => vec![Reason::Contradicted { percent, limit }],
+        false => Vec::new(),
     }
-    if false && unexplained > unexplained_limit {
-        let (percent, limit) = (100.0 * unexplained, 100.0 * unexplained_limit);
-        reasons.push(Reason::Unexplained { percent, limit });
-    }
-    reasons
 }
 
 fn inaccurate(expected: &Deviation, limits: &Limits) -> Option<Reason> {

@@ -97,7 +97,9 @@ impl Farthest {
             match (*z > 0.0, behind > 0.0) {
                 (false, _) => Shown::Still,
                 (true, false) => Shown::Alone,
-                (true, true) if *z >= behind - noise.margin_m(Margin::Moved, behind) => Shown::Still,
+                (true, true) if *z >= behind - noise.margin_m(Margin::Moved, behind) => {
+                    Shown::Still
+                }
                 (true, true) if is_common(&voters, at, *z, noise) => Shown::Still,
                 (true, true) => Shown::Moved,
             }

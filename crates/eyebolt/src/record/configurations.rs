@@ -44,6 +44,7 @@ pub(crate) struct Placement {
     pub(crate) base_from_links: LinkPoses,
     pub(crate) base_from_end_effector: Transform<Base, EndEffector>,
     pub(crate) assumed_joints: Vec<String>,
+    pub(crate) joints: JointPositions,
 }
 
 fn place(arm: &Arm, frame: &str, joints: &JointPositions) -> Result<Placement, RecordError> {
@@ -53,6 +54,7 @@ fn place(arm: &Arm, frame: &str, joints: &JointPositions) -> Result<Placement, R
         base_from_links: poses.base_from_links,
         base_from_end_effector: arm.base_from_end_effector(joints).map_err(failed)?,
         assumed_joints: poses.defaulted_joints,
+        joints: joints.clone(),
     })
 }
 

@@ -51,6 +51,7 @@ pub fn observe(
             mask: seen.mask,
             base_from_end_effector: groups[*group].first.base_from_end_effector,
             posture: placed.posture(arm, *group, &groups[*group]),
+            joints_rad: placed.positions(&groups[*group]),
         })
     });
     // Collected first: of several errors the first is reported, whichever thread met it.
@@ -98,6 +99,12 @@ impl PlacedArm {
         let model = model.with_end_effector(links.iter().map(|l| hand.contains(l)).collect());
         let (joints, model) = joints::offered(arm, &links, model);
         Ok(Self { model, joints, postures })
+    }
+
+    /// Positions of the model's joints.
+    fn positions(&self, group: &Group) -> Vec<f64> {
+        let joints = self.model.joints().iter();
+        joints.map(|joint| group.first.joints.get(&joint.name).unwrap_or(0.0)).collect()
     }
 
     fn posture(&self, arm: &Arm, index: usize, group: &Group) -> Posture {

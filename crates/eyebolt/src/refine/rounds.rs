@@ -3,8 +3,8 @@
 use crate::label::{arm_points, labels_at};
 use crate::observations::Observations;
 use eyebolt_registration::{
-    Labels, OffsetDeviations, OffsetPrior, Reach, RefineOptions, RefineView, Refinement, Silhouette,
-    Start, Trust, View,
+    Labels, OffsetDeviations, OffsetPrior, Reach, RefineOptions, RefineView, Refinement,
+    Silhouette, Start, Trust, View,
 };
 use eyebolt_render::Raster;
 use rayon::prelude::*;

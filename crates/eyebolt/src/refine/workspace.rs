@@ -2,8 +2,8 @@
 
 use super::agreement::{Agreement, agreement};
 use super::configuration::{ConfigurationOutcome, Dropped};
-use super::pixels::PixelCounts;
 use super::links::misplaced_link;
+use super::pixels::PixelCounts;
 use super::rounds::{CLOSING, refine};
 use crate::observations::Observations;
 use eyebolt_geometry::Mask;
@@ -93,13 +93,6 @@ impl<'a, 'm> Workspace<'a, 'm> {
         refinement: &Refinement,
         outcomes: &mut [ConfigurationOutcome],
     ) {
-        let pixels = self.pixels(&refinement.end());
-        if std::env::var_os("EYEBOLT_DEBUG").is_some() {
-            for (view, (_, by_link)) in pixels.iter().enumerate() {
-                let shown: Vec<String> = by_link.iter().map(|c| format!("[{} a{} c{} u{}]", c.agree, c.ambiguous, c.contradict, c.unknown)).collect();
-                println!("   view {view} {}", shown.join(" "));
-            }
-        }
         let agreement = self.agreement(&refinement.end());
         for ((index, fit), agreement) in self.indices.iter().zip(&refinement.views).zip(agreement) {
             outcomes[*index].residual_m = fit.surface_m();

@@ -83,7 +83,7 @@ pub fn all_reasons() -> Vec<Reason> {
         Reason::Misplaced { misplaced: 3, judged: 5 },
         Reason::JointOff { joint: "elbow".to_owned(), offset_deg: -3.5, limit_deg: 2.0 },
         Reason::Contradicted { percent: 40.0, limit: 25.0 },
-        Reason::Unexplained { percent: 60.0, limit: 45.0 },
+        Reason::JointsExchanged { joints: ["elbow".to_owned(), "wrist".to_owned()] },
         Reason::Ambiguous,
         Reason::Inaccurate {
             translation_mm: 33.0,

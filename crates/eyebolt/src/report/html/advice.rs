@@ -49,13 +49,13 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
             "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
             "If the joint really is that far off, set its zero anew: nothing that rests on it is right.",
         ],
+        Reason::JointsExchanged { .. } => &[
+            "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
+            "In recording.toml, give `joint_names` in the order in which the positions are stored.",
+        ],
         Reason::Contradicted { .. } => &[
             "Check that the robot description has the variant, the mount and the tool of this arm.",
             "Check joint names and order, and that depth is in the unit that the recording says.",
-        ],
-        Reason::Unexplained { .. } => &[
-            "Add tools, cables and covers to the robot description, or leave them out of the masks.",
-            "Keep people and other things that move out of the view while recording.",
         ],
         Reason::Ambiguous => &[
             "Bend the arm: a stretched or upright arm looks alike from many sides.",
