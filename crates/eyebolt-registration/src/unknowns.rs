@@ -2,7 +2,8 @@
 //!
 //! Translation (m) and rotation vector (rad) of `camera_from_base` as
 //! [`Transform::retract`](eyebolt_geometry::Transform::retract) has them, one nuisance parameter for
-//! each kind of evidence, the offset of each joint (rad) and of the intrinsics: ARCHITECTURE.md, (2).
+//! each kind of evidence, the offset of each joint (rad), of the lengths before
+//! them (m) and of the intrinsics: ARCHITECTURE.md, (2).
 
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
@@ -22,10 +23,12 @@ pub(crate) const POSE: usize = 6;
 pub(crate) const FIRST_NUISANCE: usize = POSE;
 /// Place of the first joint's offset among the unknowns.
 pub(crate) const FIRST_JOINT: usize = FIRST_NUISANCE + EVIDENCE_KINDS;
+/// Place of the first link's length among the unknowns.
+pub(crate) const FIRST_LENGTH: usize = FIRST_JOINT + MOST_JOINTS;
 /// Place of the first number of the intrinsics' offset among the unknowns.
-pub(crate) const FIRST_INTRINSIC: usize = FIRST_JOINT + MOST_JOINTS;
-/// Offsets of joints and intrinsics: what the recording says, and may be wrong.
-pub(crate) const OFFSETS: usize = MOST_JOINTS + INTRINSICS;
+pub(crate) const FIRST_INTRINSIC: usize = FIRST_LENGTH + MOST_JOINTS;
+/// Offsets of joints, lengths and intrinsics: what recording and description say, and may be wrong.
+pub(crate) const OFFSETS: usize = 2 * MOST_JOINTS + INTRINSICS;
 /// Number of unknowns.
 pub(crate) const UNKNOWNS: usize = FIRST_INTRINSIC + INTRINSICS;
 
@@ -43,18 +46,20 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Offsets of the joints, then of the intrinsics.
+    /// Offsets of the joints, the lengths, then the intrinsics.
     pub fn offsets(&self) -> [f64; OFFSETS] {
+        let JointOffsets { rad, lengths_m } = self.joint_offsets;
         let intrinsics = self.intrinsics.numbers();
-        std::array::from_fn(|i| match i.checked_sub(MOST_JOINTS) {
-            None => self.joint_offsets.rad[i],
-            Some(i) => intrinsics[i],
-        })
+        let mut all = rad.into_iter().chain(lengths_m).chain(intrinsics);
+        std::array::from_fn(|_| all.next().unwrap_or_default())
     }
 
     pub fn stepped(&self, step: &Unknowns) -> Self {
         let joints = step.fixed_rows::<MOST_JOINTS>(FIRST_JOINT);
+        let lengths = step.fixed_rows::<MOST_JOINTS>(FIRST_LENGTH);
         let rad = std::array::from_fn(|joint| self.joint_offsets.rad[joint] + joints[joint]);
+        let lengths_m =
+            std::array::from_fn(|joint| self.joint_offsets.lengths_m[joint] + lengths[joint]);
         let numbers = self.intrinsics.numbers();
         let intrinsics = std::array::from_fn(|i| numbers[i] + step[FIRST_INTRINSIC + i]);
         Self {
@@ -62,7 +67,7 @@ impl State {
             nuisances: std::array::from_fn(|kind| {
                 self.nuisances[kind] + step[FIRST_NUISANCE + kind]
             }),
-            joint_offsets: JointOffsets { rad },
+            joint_offsets: JointOffsets { rad, lengths_m },
             intrinsics: IntrinsicsOffset::from_numbers(intrinsics),
         }
     }

@@ -12,12 +12,16 @@ pub struct JointAxis {
     pub along_in_base: Unit<Vector3<f64>>,
 }
 
-/// How much farther each joint of an [`ArmModel`](super::ArmModel) stands than it says, radians; zero beyond its
-/// last joint.
+/// How the joints of an [`ArmModel`](super::ArmModel) differ from what they say and from their description;
+/// zero beyond its last joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointOffsets {
-    /// In the order of [`ArmModel::joints`](super::ArmModel::joints).
+    /// How much farther each stands than it says, in the order of
+    /// [`ArmModel::joints`](super::ArmModel::joints).
     pub rad: [f64; MOST_JOINTS],
+    /// How much farther each is from the joint before it than described: what the link between them is
+    /// longer. Zero for the first, whose place is the base's, and for joints of one housing.
+    pub lengths_m: [f64; MOST_JOINTS],
 }
 
 impl JointAxis {

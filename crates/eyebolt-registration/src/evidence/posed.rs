@@ -2,7 +2,7 @@
 
 use crate::arm::{ArmModel, Posture};
 use crate::silhouette::Silhouette;
-use crate::unknowns::{FIRST_JOINT, State, Unknowns};
+use crate::unknowns::{FIRST_JOINT, FIRST_LENGTH, State, Unknowns};
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_render::Raster;
 use nalgebra::{Point3, Vector3};
@@ -32,7 +32,7 @@ pub(crate) struct PosedView<'a> {
 
 impl PosedArm<'_> {
     /// Sets the derivatives of `gradient . point` by the offsets of the joints that move `link`, which
-    /// the point is on; both in the base frame.
+    /// the point is on, and of the lengths before them; both in the base frame.
     pub fn by_joints(
         &self,
         link: usize,
@@ -44,6 +44,9 @@ impl PosedArm<'_> {
             let turns = joint.turns(link);
             if turns != 0.0 {
                 jacobian[FIRST_JOINT + place] = turns * axis.derivative(gradient, point);
+            }
+            if joint.carries[link] {
+                jacobian[FIRST_LENGTH + place] = gradient.dot(&self.posture.lengthening(place));
             }
         }
     }

@@ -17,6 +17,9 @@ type Covariance = SMatrix<f64, OFFSETS, OFFSETS>;
 /// calibration leaves; ten pixels are more than drivers that make intrinsics up are off by.
 const LEAST_INTRINSIC: f64 = 5e-4;
 const OPEN_INTRINSIC: f64 = 0.03;
+/// Likewise links, metres: descriptions have tenths of a millimetre, those made by hand centimetres.
+const LEAST_LENGTH_M: f64 = 2e-4;
+const OPEN_LENGTH_M: f64 = 0.02;
 /// Prior deviation under which the joints are asked what they show, radians: more than arms are off.
 const OPEN_RAD: f64 = 0.05;
 /// Deviations tried for all joints, radians: from what good arms show, 0.006 degrees, to 2 degrees.
@@ -30,9 +33,9 @@ const OVERCONFIDENCE: f64 = 4.0;
 /// What a joint has to add to the logarithm of the likelihood to have a deviation of its own: about
 /// three of its deviations.
 const STANDS_OUT: f64 = 3.0;
-/// Likewise an intrinsic, whose offset moves the answer by centimetres: masks that are a little too wide
-/// in every view look like one of a few deviations.
-const INTRINSIC_STANDS_OUT: f64 = 25.0;
+/// Likewise an intrinsic or the length of a link, which move the answer by centimetres, and are hardly
+/// ever off: masks that are a little too wide in every view look like one of a few deviations.
+const DESCRIBED_STANDS_OUT: f64 = 25.0;
 /// What a deviation of all joints has to add.
 const ALL_STAND_OUT: f64 = 6.0;
 
@@ -55,16 +58,53 @@ pub(super) fn estimate(
         offsets[joint] = LARGEST_RAD;
     }
     let found = most_likely(&offsets, &covariance, apart);
+    tracing::trace!(
+        offsets = ?offsets.as_slice(),
+        deviations = ?covariance.diagonal().map(f64::sqrt).as_slice(),
+        prior = ?found.as_slice(),
+        "offsets under an open prior"
+    );
     OffsetDeviations::from_fn(|offset| found[offset])
 }
 
+/// What an offset is of.
+enum Kind {
+    Joint,
+    Length,
+    Intrinsic,
+}
+
+fn kind(offset: usize) -> Kind {
+    match offset {
+        offset if offset < MOST_JOINTS => Kind::Joint,
+        offset if offset < 2 * MOST_JOINTS => Kind::Length,
+        _ => Kind::Intrinsic,
+    }
+}
+
 fn stands_out(offset: usize) -> f64 {
-    if offset < MOST_JOINTS { STANDS_OUT } else { INTRINSIC_STANDS_OUT }
+    match kind(offset) {
+        Kind::Joint => STANDS_OUT,
+        Kind::Length | Kind::Intrinsic => DESCRIBED_STANDS_OUT,
+    }
 }
 
 /// The least deviation of an offset's prior.
 fn least(offset: usize) -> f64 {
-    if offset < MOST_JOINTS { LEAST_RAD } else { LEAST_INTRINSIC }
+    match kind(offset) {
+        Kind::Joint => LEAST_RAD,
+        Kind::Length => LEAST_LENGTH_M,
+        Kind::Intrinsic => LEAST_INTRINSIC,
+    }
+}
+
+/// The deviation under which it is asked what the evidence says of an offset.
+fn open(offset: usize) -> f64 {
+    match kind(offset) {
+        Kind::Joint => OPEN_RAD,
+        Kind::Length => OPEN_LENGTH_M,
+        Kind::Intrinsic => OPEN_INTRINSIC,
+    }
 }
 
 /// What the evidence says of the offsets if they may be anything, and how surely.
@@ -72,7 +112,6 @@ pub(super) fn under_open_prior(
     system: &System<'_>,
     state: &State,
 ) -> Option<(Offsets, Covariance)> {
-    let open = |offset| if offset < MOST_JOINTS { OPEN_RAD } else { OPEN_INTRINSIC };
     let open = OffsetDeviations::from_fn(open);
     let sum = with_priors(system.total(), state, &open);
     let step = sum.solve(1e-6)?;

@@ -50,6 +50,8 @@ pub enum Trust {
 pub struct OffsetDeviations {
     /// Of each joint's offset, radians.
     pub joints_rad: [f64; MOST_JOINTS],
+    /// Of how much longer than described the link before each joint is, metres.
+    pub lengths_m: [f64; MOST_JOINTS],
     /// Of the relative error of the focal lengths and of where the principal point is, in focal lengths.
     pub intrinsics: [f64; INTRINSICS],
 }
@@ -66,19 +68,22 @@ pub enum OffsetPrior {
 
 impl OffsetDeviations {
     /// All as good as zero: what the recording says is taken at its word.
-    pub const NONE: Self = Self { joints_rad: [1e-5; MOST_JOINTS], intrinsics: [1e-6; INTRINSICS] };
+    pub const NONE: Self = Self {
+        joints_rad: [1e-5; MOST_JOINTS],
+        lengths_m: [1e-6; MOST_JOINTS],
+        intrinsics: [1e-6; INTRINSICS],
+    };
 
     pub(crate) fn of(&self, offset: usize) -> f64 {
-        match offset.checked_sub(MOST_JOINTS) {
-            None => self.joints_rad[offset],
-            Some(offset) => self.intrinsics[offset],
-        }
+        let all = self.joints_rad.iter().chain(&self.lengths_m).chain(&self.intrinsics);
+        all.copied().nth(offset).expect("as many deviations as offsets")
     }
 
     pub(crate) fn from_fn(mut deviation: impl FnMut(usize) -> f64) -> Self {
         Self {
             joints_rad: std::array::from_fn(&mut deviation),
-            intrinsics: std::array::from_fn(|i| deviation(MOST_JOINTS + i)),
+            lengths_m: std::array::from_fn(|i| deviation(MOST_JOINTS + i)),
+            intrinsics: std::array::from_fn(|i| deviation(2 * MOST_JOINTS + i)),
         }
     }
 }
