@@ -35,7 +35,7 @@ pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual,
+    Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual,
     Start, StopReason, Trust, ViewFit, refine, residuals, settle,
 };
 pub use robust::median;

@@ -16,6 +16,7 @@ mod system;
 
 pub use gauss_newton::refine;
 pub use left_out::LeftOut;
+pub use offset_prior::Doubt;
 pub use outcome::{Fit, Refinement, StopReason, ViewFit};
 pub use residuals::{Residual, residuals};
 pub use settle::settle;

@@ -6,19 +6,19 @@ use super::priors::with_priors;
 use super::start::OffsetDeviations;
 use super::system::System;
 use crate::arm::MOST_JOINTS;
-use crate::unknowns::{FIRST_JOINT, OFFSETS, State};
-use nalgebra::{SMatrix, SVector};
+use crate::unknowns::{FIRST_JOINT, OFFSETS, POSE, State};
+use nalgebra::{SMatrix, SVector, Vector6};
 
 type Offsets = SVector<f64, OFFSETS>;
 type Covariance = SMatrix<f64, OFFSETS, OFFSETS>;
 
 /// What good cameras are off by, and what they are asked under: relative error of the focal lengths,
-/// then the principal point in focal lengths. Half a pixel of six hundred is about what a factory's
+/// then the principal point in focal lengths. A fifth of a pixel of six hundred is about what a factory's
 /// calibration leaves; ten pixels are more than drivers that make intrinsics up are off by.
-const LEAST_INTRINSIC: f64 = 5e-4;
+const LEAST_INTRINSIC: f64 = 3e-4;
 const OPEN_INTRINSIC: f64 = 0.03;
 /// Likewise links, metres: descriptions have tenths of a millimetre, those made by hand centimetres.
-const LEAST_LENGTH_M: f64 = 2e-4;
+const LEAST_LENGTH_M: f64 = 1e-4;
 const OPEN_LENGTH_M: f64 = 0.02;
 /// Prior deviation under which the joints are asked what they show, radians: more than arms are off.
 const OPEN_RAD: f64 = 0.05;
@@ -105,6 +105,36 @@ fn open(offset: usize) -> f64 {
         Kind::Length => OPEN_LENGTH_M,
         Kind::Intrinsic => OPEN_INTRINSIC,
     }
+}
+
+/// Something that description or recording may have wrong, and that was taken at its word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubt {
+    /// By how much the logarithm of the likelihood would grow if it were off by as much as it seems to be.
+    pub log_evidence: f64,
+    /// Where the pose would go: translation (m) and rotation (rad).
+    pub shift: Vector6<f64>,
+}
+
+/// The doubts that remain of lengths and intrinsics at `state`, which came with `deviations`.
+pub(super) fn doubts(
+    system: &System<'_>,
+    state: &State,
+    deviations: &OffsetDeviations,
+) -> Vec<Doubt> {
+    let Some((offsets, covariance)) = under_open_prior(system, state) else { return Vec::new() };
+    let given = Offsets::from_fn(|offset, _| deviations.of(offset));
+    let likelihood = log_likelihood(&offsets, &covariance, &given);
+    let doubtful = (MOST_JOINTS..OFFSETS).filter(|offset| given[*offset] <= least(*offset));
+    let doubt = |offset: usize| {
+        let mut wide = given;
+        wide[offset] = offsets[offset].abs().max(least(offset));
+        let log_evidence = log_likelihood(&offsets, &covariance, &wide) - likelihood;
+        let wide = OffsetDeviations::from_fn(|offset| wide[offset]);
+        let step = with_priors(system.total(), state, &wide).solve(1e-6)?;
+        Some(Doubt { log_evidence, shift: step.fixed_rows::<POSE>(0).into_owned() })
+    };
+    doubtful.filter_map(doubt).collect()
 }
 
 /// What the evidence says of the offsets if they may be anything, and how surely.

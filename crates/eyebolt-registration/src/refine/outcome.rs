@@ -1,6 +1,7 @@
 //! What a refinement comes to.
 
 use super::left_out::LeftOut;
+use super::offset_prior::Doubt;
 use super::start::{OffsetDeviations, Start};
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::intrinsics_offset::IntrinsicsOffset;
@@ -66,6 +67,8 @@ pub struct Refinement {
     pub offset_prior: OffsetDeviations,
     /// The nuisance parameter of each kind of evidence.
     pub nuisances: [f64; EVIDENCE_KINDS],
+    /// Lengths and intrinsics that were taken at their word although the data may tell otherwise.
+    pub doubts: Vec<Doubt>,
     /// Information of translation (m) and rotation (rad), the other unknowns marginalised, as
     /// weighted in the last step.
     pub information: Matrix6<f64>,

@@ -3,7 +3,7 @@
 use super::covariance::sandwich;
 use super::gather::ViewFactors;
 use super::left_out::without_each;
-use super::offset_prior::under_open_prior;
+use super::offset_prior::{doubts, under_open_prior};
 use super::outcome::{Fit, Refinement, StopReason, ViewFit};
 use super::priors::with_priors;
 use super::start::OffsetDeviations;
@@ -50,6 +50,7 @@ pub(super) fn summarise(
             }),
         intrinsics: state.intrinsics,
         offset_prior: *deviations,
+        doubts: doubts(system, state, deviations),
         nuisances: state.nuisances,
         information,
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),

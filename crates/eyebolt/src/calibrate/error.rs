@@ -13,7 +13,7 @@ use super::jackknife::{Jackknife, jackknife, without_parts};
 use super::one_kind::{one_kind_each, spread};
 use crate::refine::Workspace;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{MOST_JOINTS, RefineView, Refinement, Start};
+use eyebolt_registration::{Doubt, MOST_JOINTS, RefineView, Refinement, Start};
 use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, SVector, Vector3, Vector6};
 
 /// An experiment that shows how far off an answer may be.
@@ -25,6 +25,8 @@ pub enum ErrorSource {
     LeftOut,
     /// What single kinds of evidence would say alone.
     Disagreement,
+    /// What lengths of links and intrinsics may be off by that were taken at their word.
+    Description,
     /// Allowed for what other kinds of evidence would have told, where there is only one.
     OneKind,
 }
@@ -95,8 +97,11 @@ pub(crate) fn estimate(
     if let Some(without) = &without {
         sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, &without.parts))));
     }
-    sources.push(match &one_kind {
-        Some(alone) => (ErrorSource::Disagreement, by_disagreement(refinement, alone)),
+    let ratio = one_kind.as_ref().map(|alone| birge(refinement, alone));
+    let doubts = by_doubts(&refinement.doubts, ratio.unwrap_or(1.0));
+    sources.push((ErrorSource::Description, doubts));
+    sources.push(match ratio {
+        Some(ratio) => (ErrorSource::Disagreement, by_disagreement(refinement, ratio)),
         None => {
             let variance = ONE_KIND_SIGMA.map(|sigma| sigma * sigma);
             (ErrorSource::OneKind, Matrix6::from_diagonal(&variance))
@@ -136,26 +141,42 @@ pub(crate) fn estimate(
     }
 }
 
-/// Covariance that the disagreement of single kinds of evidence lets one expect: that of the noise model,
-/// enlarged until the answers of the kinds agree with it (R. T. Birge, Physical Review 1932).
+/// By how much the variances of the noise model have to be enlarged for the answers of single kinds of
+/// evidence to agree with it (R. T. Birge, Physical Review 1932); infinite where that cannot be told.
 ///
 /// The directions in which a kind says nothing count nothing: there it may be anywhere.
-fn by_disagreement(refinement: &Refinement, alone: &[Refinement]) -> Matrix6<f64> {
+fn birge(refinement: &Refinement, alone: &[Refinement]) -> f64 {
     let pose = &refinement.camera_from_base;
     let all: Matrix6<f64> = alone.iter().map(|kind| kind.information).sum();
     let sum: Vector6<f64> =
         alone.iter().map(|kind| kind.information * pose.local(&kind.camera_from_base)).sum();
-    let nothing = Matrix6::from_element(f64::INFINITY);
-    let Some(mean) = all.cholesky().map(|all| all.solve(&sum)) else { return nothing };
-    let chi_square: f64 = alone
-        .iter()
-        .map(|kind| {
-            let from_mean = pose.local(&kind.camera_from_base) - mean;
-            from_mean.dot(&(kind.information * from_mean))
-        })
-        .sum();
-    let freedom = 6.0 * (alone.len() as f64 - 1.0);
-    refinement.information.try_inverse().map_or(nothing, |noise| noise * (chi_square / freedom))
+    let Some(mean) = all.cholesky().map(|all| all.solve(&sum)) else { return f64::INFINITY };
+    let of_kind = |kind: &Refinement| {
+        let from_mean = pose.local(&kind.camera_from_base) - mean;
+        from_mean.dot(&(kind.information * from_mean))
+    };
+    let chi_square: f64 = alone.iter().map(of_kind).sum();
+    chi_square / (6.0 * (alone.len() as f64 - 1.0))
+}
+
+/// Covariance that the disagreement of single kinds of evidence lets one expect.
+fn by_disagreement(refinement: &Refinement, birge: f64) -> Matrix6<f64> {
+    let noise = refinement.information.try_inverse().filter(|_| birge.is_finite());
+    noise.map_or(Matrix6::from_element(f64::INFINITY), |noise| noise * birge)
+}
+
+/// How likely a length or an intrinsic is to be off before anything is seen of it.
+const OFF: f64 = 0.05;
+
+/// Covariance from what may be off and was taken at its word: each shift as likely as the evidence for it
+/// makes it (Bayesian model averaging; Hoeting et al., Statistical Science 1999). Evidence is worth the
+/// less, the more the kinds of it disagree.
+fn by_doubts(doubts: &[Doubt], birge: f64) -> Matrix6<f64> {
+    let each = doubts.iter().map(|doubt| {
+        let odds = OFF / (1.0 - OFF) * (doubt.log_evidence / birge.max(1.0)).exp();
+        doubt.shift * doubt.shift.transpose() * (odds / (1.0 + odds)).min(1.0)
+    });
+    each.sum()
 }
 
 /// Standard deviation of an answer from one kind of evidence alone, along each axis, m and rad: what

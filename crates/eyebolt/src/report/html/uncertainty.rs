@@ -71,6 +71,10 @@ fn words(source: ErrorSource) -> [&'static str; 2] {
             "disagreement of the kinds of evidence",
             "spread of what surfaces and outlines would say alone: what is wrong in every view alike",
         ],
+        ErrorSource::Description => [
+            "description and intrinsics",
+            "lengths of links and intrinsics that may be off, each as likely as the data make it",
+        ],
         ErrorSource::OneKind => [
             "one kind of evidence",
             "an allowance for what outlines would have told: none was seen",
