@@ -34,6 +34,9 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let joints = answer.assumed_joints.join(", ");
         let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
     }
+    for finding in answer.findings() {
+        let _ = writeln!(text, "  {finding}");
+    }
     for joint in answer.notable_joint_offsets() {
         let _ = writeln!(
             text,

@@ -35,8 +35,8 @@ pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual,
-    Start, StopReason, Trust, ViewFit, refine, residuals, settle,
+    ChangePoint, Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual,
+    Start, StopReason, Trust, ViewFit, change_point, refine, residuals, settle,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

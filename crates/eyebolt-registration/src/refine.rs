@@ -1,5 +1,6 @@
 //! Robust refinement of one pose over all configurations at once.
 
+mod change_point;
 mod clusters;
 mod covariance;
 mod gather;
@@ -14,6 +15,7 @@ mod start;
 mod summary;
 mod system;
 
+pub use change_point::{ChangePoint, change_point};
 pub use gauss_newton::refine;
 pub use left_out::LeftOut;
 pub use offset_prior::Doubt;

@@ -4,6 +4,10 @@
 //! are rows of numbers; quaternions are `xyzw` with
 //! `w >= 0`.
 
+mod findings;
+
+pub use findings::{CameraMovedBetween, LinkLength, Part, StatedIntrinsics};
+
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::observations::{Background, ImageSource, Observations};
 use crate::pipeline::{Outcome, Request};
@@ -64,6 +68,19 @@ pub struct Answer {
     /// the most of all configurations, millimetres; `null` if nothing was found. Whoever commands
     /// joints, or computes poses from them, is off by this beside the calibration's own error.
     pub end_effector_off_by_joints_mm: Option<f64>,
+    /// When the camera was found to have moved, in order of time: the answer is where it was last.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub camera_moved: Vec<CameraMovedBetween>,
+    /// Parts that move with a link and are not in the robot description; they are left out of account.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unknown_parts: Vec<Part>,
+    /// Links that seem to be longer than described, and by how much; allowed for in the answer.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub link_lengths: Vec<LinkLength>,
+    /// How far the camera's true intrinsics seem to be from those stated; absent where nothing speaks
+    /// for it. Allowed for in the answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intrinsics_offset: Option<StatedIntrinsics>,
     /// One for each frame of the configurations that were used or judged, frames of one configuration
     /// together; frames that were left out, and spare configurations, are counted below.
     pub configurations: Vec<FrameOutcome>,
@@ -248,6 +265,10 @@ impl Answer {
                 .unwrap_or_default(),
             end_effector_off_by_joints_mm: observations
                 .and_then(|observations| end_effector_off_mm(observations, calibration)),
+            camera_moved: findings::camera_moved(calibration),
+            unknown_parts: findings::unknown_parts(calibration),
+            link_lengths: findings::link_lengths(outcome),
+            intrinsics_offset: findings::intrinsics_offset(outcome),
             configurations: frame_outcomes(calibration),
             frames_left_out: request.source.provenance().dropped_by_reason(),
             spare_configurations: observations
@@ -284,6 +305,15 @@ impl Answer {
 }
 
 impl Answer {
+    /// What was found out about camera, arm and description, a sentence each.
+    pub fn findings(&self) -> Vec<String> {
+        let moved = self.camera_moved.iter().map(ToString::to_string);
+        let parts = self.unknown_parts.iter().map(ToString::to_string);
+        let lengths = self.link_lengths.iter().map(ToString::to_string);
+        let intrinsics = self.intrinsics_offset.iter().map(ToString::to_string);
+        moved.chain(parts).chain(lengths).chain(intrinsics).collect()
+    }
+
     /// The joints whose zeros are surely off, from the base on.
     pub fn notable_joint_offsets(&self) -> impl Iterator<Item = &JointOffset> {
         self.joint_offsets.iter().filter(|joint| joint.is_notable())

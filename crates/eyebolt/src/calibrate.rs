@@ -9,6 +9,7 @@ mod judge;
 mod limits;
 mod one_kind;
 mod reason;
+mod unknown_parts;
 mod verdict;
 
 pub use calibration::Calibration;
@@ -18,3 +19,4 @@ pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;
 pub use reason::{Reason, Verdict};
+pub use unknown_parts::UnknownPart;

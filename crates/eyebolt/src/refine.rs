@@ -2,6 +2,7 @@
 
 mod agreement;
 mod best;
+mod camera_moved;
 mod configuration;
 mod known_background;
 mod links;
@@ -12,6 +13,7 @@ mod workspace;
 
 pub use agreement::{Agreement, agreement, total};
 pub use best::{Found, Refined, refine_best};
+pub use camera_moved::CameraMoved;
 pub use configuration::{ConfigurationOutcome, Dropped};
 pub(crate) use configuration::{misplaced, too_many_misplaced};
 pub use links::{Misplaced, misplaced_link};

@@ -79,6 +79,15 @@ impl<'a> System<'a> {
         total
     }
 
+    /// The sum of one view.
+    pub fn total_of(&self, view: usize) -> Sum {
+        let mut total = Sum::default();
+        for sum in self.sums[view].iter().flatten() {
+            total.add_all(sum);
+        }
+        total
+    }
+
     /// The sum of all views but those `left_out`; the rest of a cluster then counts as much as the
     /// whole did. `total` and `cluster_totals` are those of this system.
     pub fn total_without(&self, left_out: &[usize], total: &Sum, cluster_totals: &[Sum]) -> Sum {

@@ -2,7 +2,8 @@
 
 use super::error::ErrorEstimate;
 use super::reason::Verdict;
-use crate::refine::{Agreement, ConfigurationOutcome, total};
+use super::unknown_parts::UnknownPart;
+use crate::refine::{Agreement, CameraMoved, ConfigurationOutcome, total};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::Refinement;
 
@@ -15,6 +16,10 @@ pub struct Calibration {
     pub refinement: Option<Refinement>,
     /// One for each configuration of the observations.
     pub configurations: Vec<ConfigurationOutcome>,
+    /// When the camera was found to have moved, in order of time: the answer is where it was last.
+    pub camera_moved: Vec<CameraMoved>,
+    /// Parts that move with a link and are not in the description.
+    pub unknown_parts: Vec<UnknownPart>,
     /// How far off the answer is expected to be.
     pub error: Option<ErrorEstimate>,
     /// Whether to use it.
@@ -25,7 +30,16 @@ impl Calibration {
     /// No answer, and why.
     pub fn without_pose(verdict: Verdict) -> Self {
         let configurations = Vec::new();
-        Self { camera_from_base: None, refinement: None, configurations, error: None, verdict }
+        let (camera_moved, unknown_parts) = (Vec::new(), Vec::new());
+        Self {
+            camera_from_base: None,
+            refinement: None,
+            configurations,
+            camera_moved,
+            unknown_parts,
+            error: None,
+            verdict,
+        }
     }
 
     /// How all pixels of the configurations used agree with the answer.

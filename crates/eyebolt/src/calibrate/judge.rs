@@ -5,6 +5,7 @@ use super::error;
 use super::exchanged::exchanged;
 use super::jackknife::Jackknife;
 use super::limits::Limits;
+use super::unknown_parts::unknown_parts;
 use super::verdict::{Findings, judge, nothing_found};
 use crate::observations::Observations;
 use crate::progress::{Cancelled, Progress};
@@ -37,6 +38,7 @@ pub fn calibrate(
     let end = refinement.end();
     let rival = refined.rival.is_some_and(|rival| stands(&mut workspace, &rival, &end));
     let exchanged = exchanged(observations, &workspace.indices, &end);
+    let unknown_parts = unknown_parts(observations, &masks, &workspace.indices, &end);
     let findings = Findings {
         refinement: &refinement,
         joints: observations.arm.joints(),
@@ -52,6 +54,8 @@ pub fn calibrate(
         camera_from_base: Some(observations.optical_from_camera * refinement.camera_from_base),
         refinement: Some(refinement),
         configurations,
+        camera_moved: refined.camera_moved,
+        unknown_parts,
         error: Some(error),
         verdict,
     })

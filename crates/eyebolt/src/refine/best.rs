@@ -1,5 +1,6 @@
 //! From hypotheses to one refined answer.
 
+use super::camera_moved::{CameraMoved, find_change};
 use super::configuration::{ConfigurationOutcome, Dropped, taking_part, too_many_misplaced};
 use super::shortlist;
 use super::workspace::Workspace;
@@ -23,6 +24,8 @@ pub struct Refined<'a> {
     pub(crate) rasters: Vec<Raster>,
     /// What it saw of each of them.
     pub(crate) seen: Vec<RefineView<'a>>,
+    /// When the camera was found to have moved, in order of time: the refinement is of what came after.
+    pub camera_moved: Vec<CameraMoved>,
     /// Another pose that explained nearly as much before it was refined to its end.
     pub(crate) rival: Option<Transform<Camera, Base>>,
 }
@@ -69,6 +72,16 @@ pub fn refine_best<'a>(
     };
     progress.advance(1, 2)?;
     let (mut refinement, mut seen) = workspace.refine(&best.camera_from_base.into());
+    let mut camera_moved = Vec::new();
+    while let Some(change) = find_change(&mut workspace, &refinement, &seen) {
+        for index in &workspace.indices[..change.before] {
+            configurations[*index].dropped = Some(Dropped::BeforeCameraMoved);
+        }
+        let indices = taking_part(&configurations);
+        workspace = Workspace::with(observations, &masks, indices, workspace.rasters);
+        (refinement, seen) = (change.later, change.seen);
+        camera_moved.push(change.moved);
+    }
     let misplaced = workspace.find_misplaced(&refinement, &mut configurations);
     if misplaced > 0 && !too_many_misplaced(&configurations) {
         tracing::debug!(misplaced, "refining again without configurations with a misplaced link");
@@ -77,7 +90,8 @@ pub fn refine_best<'a>(
         (refinement, seen) = workspace.refine(&refinement.end());
     }
     let Workspace { indices, rasters, .. } = workspace;
-    let refined = Some(Refined { refinement, indices, rasters, seen, rival: best.rival });
+    let rival = best.rival;
+    let refined = Some(Refined { refinement, indices, rasters, seen, camera_moved, rival });
     Ok(Found { configurations, masks, refined })
 }
 

@@ -25,6 +25,9 @@ pub enum Dropped {
         /// How many there were.
         pixels: usize,
     },
+    /// The camera moved afterwards; the answer is where it was then.
+    #[error("the camera moved afterwards")]
+    BeforeCameraMoved,
     /// The camera saw through a link where the joints put it.
     #[error(
         "{} is not where its joints put it: the camera sees through {:.0} % of it",

@@ -52,6 +52,16 @@ impl<'a, 'm> Workspace<'a, 'm> {
         refine(self.observations, &self.views, &mut self.rasters, start, CLOSING)
     }
 
+    /// As [`Self::refine`], on some of the views.
+    pub(crate) fn refine_some(
+        &mut self,
+        views: std::ops::Range<usize>,
+        start: &Start,
+    ) -> (Refinement, Vec<RefineView<'a>>) {
+        let rasters = &mut self.rasters[views.clone()];
+        refine(self.observations, &self.views[views], rasters, start, CLOSING)
+    }
+
     /// Marks the configurations with a link that the camera sees through, and counts them.
     pub(crate) fn find_misplaced(
         &mut self,

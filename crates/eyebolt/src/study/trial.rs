@@ -95,15 +95,18 @@ fn calibrated(
     }
 }
 
-/// `calibration` against the truth. Of a camera that was bumped the truth is where it stood first: no
-/// answer says that it is of a later place.
+/// `calibration` against the truth. Of a camera that was bumped the truth is where it stood first, unless
+/// the answer says that it is of a later place.
 fn answered(calibration: &Calibration, plan: &Plan<'_>) -> Answered {
     let at = plan.workspace_in_base();
     let pose = calibration.camera_from_base.as_ref();
     let off = |truth| pose.map(|pose| Deviation::between(pose, truth, &at));
+    let after = plan.sought_camera_from_base_after();
+    let first = plan.sought_camera_from_base();
+    let later = after.as_ref().filter(|_| !calibration.camera_moved.is_empty());
     Answered {
-        error: off(&plan.sought_camera_from_base()),
-        error_after_bump: plan.sought_camera_from_base_after().as_ref().and_then(off),
+        error: off(later.unwrap_or(&first)),
+        error_after_bump: after.as_ref().and_then(off),
         expected: calibration.error.as_ref().map(|error| error.expected),
         quantiles: calibration.error.as_ref().zip(pose).map(|(e, pose)| quantiles(e, pose, &at)),
         refusals: match &calibration.verdict {

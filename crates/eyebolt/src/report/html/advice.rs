@@ -70,6 +70,13 @@ pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
     }
 }
 
+/// `finding` with a capital letter and a full stop.
+fn sentence(finding: String) -> String {
+    let mut letters = finding.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
 /// What a careful reader should know of an answer, trusted or not.
 pub(super) fn notes(answer: &Answer) -> Vec<String> {
     let mut notes = Vec::new();
@@ -83,6 +90,7 @@ pub(super) fn notes(answer: &Answer) -> Vec<String> {
             answer.assumed_joints.join(", ")
         ));
     }
+    notes.extend(answer.findings().into_iter().map(sentence));
     if answer.background == Some("of_another_scene") {
         notes.push(
             "The frames without the arm show another scene, or this one from another place: they were \
