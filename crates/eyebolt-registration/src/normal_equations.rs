@@ -30,18 +30,33 @@ impl<const N: usize> NormalEquations<N> {
         self.weight += weight;
     }
 
-    /// As [`Self::add`] where the square counts `curvature`, which may be negative, and the slope
-    /// `weight`.
-    pub(crate) fn add_curved(
+    /// As [`Self::add`] where the square counts `curvature`, which may be negative, and the slope `weight`;
+    /// but of the information only what lies on and below the diagonal, which [`Self::mirror`] completes.
+    /// Derivatives that are zero cost nothing.
+    pub(crate) fn add_lower(
         &mut self,
         jacobian: &SVector<f64, N>,
         residual: f64,
         weight: f64,
         curvature: f64,
     ) {
-        self.information.ger(curvature, jacobian, jacobian, 1.0);
+        let along = jacobian.as_slice();
+        for (c, column) in self.information.as_mut_slice().chunks_exact_mut(N).enumerate() {
+            if along[c] == 0.0 {
+                continue;
+            }
+            let scaled = curvature * along[c];
+            for (sum, along) in column[c..].iter_mut().zip(&along[c..]) {
+                *sum += scaled * along;
+            }
+        }
         self.gradient.axpy(weight * residual, jacobian, 1.0);
         self.weight += weight;
+    }
+
+    /// Copies what lies below the diagonal of the information to above it.
+    pub(crate) fn mirror(&mut self) {
+        self.information.fill_upper_triangle_with_lower_triangle();
     }
 
     /// Adds another sum, `factor` times.

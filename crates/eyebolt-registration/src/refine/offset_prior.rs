@@ -160,52 +160,56 @@ fn most_likely(offsets: &Offsets, covariance: &Covariance, apart: [bool; OFFSETS
     if common.0 > single.0 + ALL_STAND_OUT { common.1 } else { single.1 }
 }
 
-/// As [`with_apart`], with further offsets apart as long as each is worth it; the logarithm of the
-/// likelihood is less what those cost.
+/// The best deviation up to `largest_rad` of all joints but those `apart`, with further offsets apart as
+/// long as each is worth it; the logarithm of the likelihood less what those cost, and all deviations.
 fn with_more_apart(
     offsets: &Offsets,
     covariance: &Covariance,
     mut apart: [bool; OFFSETS],
     largest_rad: f64,
 ) -> (f64, Offsets) {
-    let (mut best, mut deviations) = with_apart(offsets, covariance, &apart, largest_rad);
     let mut cost = 0.0;
     loop {
+        let (best, common) = best_common(offsets, covariance, &apart, largest_rad);
         let others = (0..OFFSETS).filter(|offset| !apart[*offset]).map(|offset| {
             let mut more = apart;
             more[offset] = true;
-            let (likelihood, found) = with_apart(offsets, covariance, &more, largest_rad);
-            (likelihood - best - stands_out(offset), likelihood, found, more)
+            let likelihood =
+                log_likelihood(offsets, covariance, &deviations(offsets, &more, common));
+            (likelihood - best - stands_out(offset), offset)
         });
-        match others.max_by(|(a, ..), (b, ..)| a.total_cmp(b)) {
-            Some((gain, likelihood, found, more)) if gain > 0.0 => {
-                cost += likelihood - best - gain;
-                (best, deviations, apart) = (likelihood, found, more);
+        match others.max_by(|(a, _), (b, _)| a.total_cmp(b)) {
+            Some((gain, offset)) if gain > 0.0 => {
+                apart[offset] = true;
+                cost += stands_out(offset);
             }
-            _ => return (best - cost, deviations),
+            _ => return (best - cost, deviations(offsets, &apart, common)),
         }
     }
 }
 
-/// The best deviation up to `largest_rad` for those joints that are not `apart`, each of which is off by
-/// its own; and the logarithm of the likelihood.
-fn with_apart(
+/// The deviation up to `largest_rad` of those joints that are not `apart` that is most likely, after the
+/// logarithm of the likelihood.
+fn best_common(
     offsets: &Offsets,
     covariance: &Covariance,
     apart: &[bool; OFFSETS],
     largest_rad: f64,
-) -> (f64, Offsets) {
+) -> (f64, f64) {
     let tried = std::iter::successors(Some(LEAST_RAD), |deviation| Some(deviation * RATIO));
     let all = tried.take_while(|deviation| *deviation <= largest_rad).map(|common| {
-        let deviations = Offsets::from_fn(|offset, _| match apart[offset] {
-            true => offsets[offset].abs().max(least(offset)),
-            false if offset < MOST_JOINTS => common,
-            false => least(offset),
-        });
-        (log_likelihood(offsets, covariance, &deviations), deviations)
+        (log_likelihood(offsets, covariance, &deviations(offsets, apart, common)), common)
     });
-    let worst = (f64::NEG_INFINITY, Offsets::repeat(LEAST_RAD));
-    all.fold(worst, |best, next| if next.0 > best.0 { next } else { best })
+    all.fold((f64::NEG_INFINITY, LEAST_RAD), |best, next| if next.0 > best.0 { next } else { best })
+}
+
+/// Offsets `apart` are off by their own, other joints by `common`, and nothing else is off.
+fn deviations(offsets: &Offsets, apart: &[bool; OFFSETS], common: f64) -> Offsets {
+    Offsets::from_fn(|offset, _| match kind(offset) {
+        _ if apart[offset] => offsets[offset].abs().max(least(offset)),
+        Kind::Joint => common,
+        Kind::Length | Kind::Intrinsic => least(offset),
+    })
 }
 
 fn log_likelihood(offsets: &Offsets, covariance: &Covariance, deviations: &Offsets) -> f64 {

@@ -33,6 +33,8 @@ pub struct RefineOptions {
     pub trust: Trust,
     /// How far off joints and intrinsics may be.
     pub offset_prior: OffsetPrior,
+    /// Whether to say in the end what would be without single views, and what remains in doubt.
+    pub in_full: bool,
 }
 
 /// Which kinds of evidence count: all as much as their residuals deserve, or all but one hardly at

@@ -21,11 +21,11 @@ pub(super) struct Ending {
 }
 
 /// The outcome of a refinement that ended at `state`; `curved` has the sums of `system` with Newton's
-/// matrix.
+/// matrix, if it is asked for in full.
 pub(super) fn summarise(
     gathered: &[ViewFactors],
     system: &System<'_>,
-    curved: &System<'_>,
+    curved: Option<&System<'_>>,
     weights: &Weights,
     state: &State,
     deviations: &OffsetDeviations,
@@ -38,8 +38,9 @@ pub(super) fn summarise(
     let information = inverse
         .and_then(|c| c.fixed_view::<6, 6>(0, 0).into_owned().try_inverse())
         .unwrap_or_else(Matrix6::zeros);
-    let [left_out, groups_left_out] =
-        without_each(system, curved, state, deviations, gathered.len());
+    let [left_out, groups_left_out] = curved.map_or_else(Default::default, |curved| {
+        without_each(system, curved, state, deviations, gathered.len())
+    });
     let Ending { iterations, last_step, stop } = ending;
     Refinement {
         camera_from_base: state.camera_from_base,
@@ -50,7 +51,7 @@ pub(super) fn summarise(
             }),
         intrinsics: state.intrinsics,
         offset_prior: *deviations,
-        doubts: doubts(system, state, deviations),
+        doubts: curved.map_or_else(Vec::new, |_| doubts(system, state, deviations)),
         nuisances: state.nuisances,
         information,
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),

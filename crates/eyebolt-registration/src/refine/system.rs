@@ -63,7 +63,10 @@ impl<'a> System<'a> {
             }
             for (link, cluster) in sums.iter_mut().zip(clusters) {
                 let share = (cluster.views as f64).recip();
-                link.iter_mut().for_each(|sum| sum.scale(share));
+                link.iter_mut().for_each(|sum| {
+                    sum.mirror();
+                    sum.scale(share);
+                });
             }
             sums
         });
@@ -162,12 +165,10 @@ fn add_kind(
     for factor in &view.factors[kind] {
         let weight = all * geman_mcclure(factor.residual, scale);
         let sum = &mut sums[factor.link][kind];
-        match matrix {
-            Matrix::Reweighted => sum.add(&factor.jacobian, factor.residual, weight),
-            Matrix::Curvature => {
-                let curvature = all * geman_mcclure_curvature(factor.residual, scale);
-                sum.add_curved(&factor.jacobian, factor.residual, weight, curvature);
-            }
-        }
+        let curvature = match matrix {
+            Matrix::Reweighted => weight,
+            Matrix::Curvature => all * geman_mcclure_curvature(factor.residual, scale),
+        };
+        sum.add_lower(&factor.jacobian, factor.residual, weight, curvature);
     }
 }

@@ -20,7 +20,10 @@ pub const OPENING: &[RefineOptions] =
     &[RefineOptions { offset_prior: AT_THEIR_WORD, ..options(4, Reach::Far) }];
 
 /// From there to the answer.
-pub const CLOSING: &[RefineOptions] = &[options(5, Reach::Near), options(20, Reach::Close)];
+pub const CLOSING: &[RefineOptions] = &[
+    options(5, Reach::Near),
+    RefineOptions { in_full: true, ..options(20, Reach::Close) },
+];
 
 /// From an answer to what it would be with other data, in so many steps.
 pub const fn again(iterations: usize) -> RefineOptions {
@@ -28,7 +31,8 @@ pub const fn again(iterations: usize) -> RefineOptions {
 }
 
 const fn options(iterations: usize, reach: Reach) -> RefineOptions {
-    RefineOptions { iterations, reach, trust: Trust::All, offset_prior: OffsetPrior::Estimated }
+    let (trust, offset_prior) = (Trust::All, OffsetPrior::Estimated);
+    RefineOptions { iterations, reach, trust, offset_prior, in_full: false }
 }
 
 /// Labels and points of each of `views` with the arm posed as `start` has it.
