@@ -16,8 +16,8 @@ const OUTSIDE_M: f64 = 0.01;
 /// Zeros of arms that were put together by hand are off by a degree; a joint that seems to be off by
 /// more says that its recorded positions are another's.
 const JOINT_OFF_RAD: f64 = 0.035;
-/// An offset of the first joint counts from where it is surely not zero: beyond its 95 percent interval.
-const FIRST_JOINT_SIGMAS: f64 = 2.0;
+/// An offset counts from where it is surely not zero: beyond its 95 percent interval.
+const JOINT_SIGMAS: f64 = 2.0;
 /// Share of the posed arm's pixels that may show the scene behind it. Of a right pose's, clear of its
 /// outline, hardly any do; the failures of depth on glossy links do not look like the scene.
 const CONTRADICTED_SHARE: f64 = 0.05;
@@ -103,13 +103,10 @@ fn misplaced_reason(outcomes: &[ConfigurationOutcome]) -> Option<Reason> {
 fn joint_off(findings: &Findings<'_>) -> Option<Reason> {
     let offsets = findings.refinement.joint_offsets.rad;
     let joints = findings.joints.iter().zip(offsets).zip(findings.error.joint_sigma_rad);
-    // The first joint's is no part of the pose and often hardly seen: only what is sure counts. Others
-    // take the pose along with them, sure or not: two exchanged names look like uncertain offsets.
-    let by = |joint: &ArmJoint, rad: f64, sigma: f64| match joint.defines_base {
-        true => rad.abs() - FIRST_JOINT_SIGMAS * sigma,
-        false => rad.abs(),
-    };
-    let far = joints.map(|((joint, rad), sigma)| (joint, rad, by(joint, rad, sigma)));
+    // A joint that is hardly seen takes up whatever is wrong with depth: only what is sure counts. What
+    // that does to the pose is part of the expected error.
+    let far =
+        joints.map(|((joint, rad), sigma)| (joint, rad, rad.abs() - JOINT_SIGMAS * sigma));
     let (joint, rad, far) = far.max_by(|(.., a), (.., b)| a.total_cmp(b))?;
     (far > JOINT_OFF_RAD).then(|| Reason::JointOff {
         joint: joint.name.clone(),

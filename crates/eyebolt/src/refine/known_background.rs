@@ -52,17 +52,19 @@ impl<'a> KnownBackground<'a> {
             free.as_slice()[at].then(|| depth_m[at])
         });
         let frames = self.observations.background.depth().map(|frame| frame.depth_m()[at]);
-        let mut found = Behind::Unknown;
+        let (mut found, mut blank) = (Behind::Unknown, false);
         for behind_m in clear.chain(frames) {
             match (seen_m > 0.0, behind_m > 0.0) {
                 (true, true) if (behind_m - seen_m).abs() <= margin_m => return Behind::Same,
                 (true, true) if behind_m > seen_m => found = Behind::Farther,
                 // Seen once, there is a scene in range.
                 (false, true) => return Behind::Farther,
-                (false, false) => found = Behind::Same,
+                (false, false) => blank = true,
                 _ => {}
             }
         }
-        found
+        // Where nobody ever sees anything, something may stand too near to the camera.
+        let in_sight = || self.views.iter().any(|(depth_m, _)| depth_m[at] > 0.0);
+        if blank && in_sight() { Behind::Same } else { found }
     }
 }

@@ -51,6 +51,10 @@ const RIM_PX: u32 = 4;
 /// A mask's own edge is trusted this closely, pixels.
 const MASK_RIM_PX: u32 = 6;
 
+/// The shadow of what stands before the arm, where stereo and structured light see nothing, is no wider
+/// than this share of the image.
+const SHADOW: u32 = 25;
+
 /// The counts of each link of the arm drawn in `raster`, which is of view number `own`.
 pub(super) fn count_pixels(
     observations: &Observations,
@@ -63,17 +67,26 @@ pub(super) fn count_pixels(
     let drawn = Mask::new(view.depth.width(), view.depth.height(), drawn);
     let inner = drawn.expect("a raster is of its camera's size").eroded(RIM_PX);
     let mask = view.mask.map(|mask| mask.dilated(MASK_RIM_PX));
+    let margin = |z: f32| observations.noise.margin_m(Margin::Refined, z);
+    let is_hidden = |at: usize| {
+        let (seen, z) = (view.depth_m(at), raster.depth_m(at));
+        seen > 0.0 && z.is_some_and(|z| seen < z - margin(z))
+    };
+    let hidden = (0..view.depth.depth_m().len()).map(is_hidden).collect();
+    let hidden = Mask::new(view.depth.width(), view.depth.height(), hidden);
+    let hidden = hidden.expect("a pixel each of the image");
+    let shadow = hidden.dilated(view.depth.width() / SHADOW);
     let mut counts = vec![PixelCounts::default(); observations.arm.links().len()];
     for at in raster.pixels() {
         let (Some(z), Some(link)) = (raster.depth_m(at), raster.link(at)) else { continue };
         let Some(count) = counts.get_mut(usize::from(link)) else { continue };
-        let (seen, margin) = (view.depth_m(at), observations.noise.margin_m(Margin::Refined, z));
-        let hidden = seen > 0.0 && seen < z - margin;
+        let seen = view.depth_m(at);
+        let unseen = hidden.as_slice()[at] || (seen <= 0.0 && shadow.as_slice()[at]);
         let outside = mask.as_ref().is_some_and(|mask| !mask.as_slice()[at]);
         let inside = view.mask.is_some() && !outside;
         let scene = || background.behind(own, at, view.depth.depth_m()[at]) == Behind::Same;
-        let at_depth = seen > 0.0 && seen <= z + margin;
-        let verdict = match (hidden, at_depth) {
+        let at_depth = seen > 0.0 && seen <= z + margin(z);
+        let verdict = match (unseen, at_depth) {
             (true, _) => &mut count.unknown,
             _ if outside && inner.as_slice()[at] => &mut count.contradict,
             _ if outside => &mut count.unknown,
