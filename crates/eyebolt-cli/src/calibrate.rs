@@ -43,10 +43,10 @@ pub struct Arguments {
     /// Replace existing files
     #[arg(long)]
     force: bool,
-    /// Expected error up to which an answer is trusted, millimetres [default: 20]
+    /// Expected error up to which an answer is trusted, millimetres [default: 10]
     #[arg(long, value_name = "MM", value_parser = positive)]
     max_error_mm: Option<f64>,
-    /// Expected error up to which an answer is trusted, degrees [default: 1.2]
+    /// Expected error up to which an answer is trusted, degrees [default: 0.6]
     #[arg(long, value_name = "DEG", value_parser = positive)]
     max_error_deg: Option<f64>,
     /// Seed of the search; the same seed gives the same bytes on any number of threads

@@ -1,5 +1,6 @@
 //! Laws of the overlay picture, on a box that a made-up camera sees.
 
+use eyebolt::depth_noise::DepthNoise;
 use eyebolt::observations::{Background, Configuration, ImageSource, Observations};
 use eyebolt::report::{Drawn, overlay};
 use eyebolt_geometry::{
@@ -51,6 +52,7 @@ fn observations(width: u32, height: u32) -> Observations {
         mask: None,
         base_from_end_effector: Transform::identity(),
         posture,
+        joints_rad: Vec::new(),
     };
     Observations {
         background: Background::None,
@@ -59,6 +61,7 @@ fn observations(width: u32, height: u32) -> Observations {
         optical_from_camera: Transform::identity(),
         source: ImageSource::DepthImages,
         arm,
+        noise: DepthNoise::learn(&[&configuration.depth]),
         configurations: vec![configuration],
         assumed_joints: Vec::new(),
         outside_limits: Vec::new(),

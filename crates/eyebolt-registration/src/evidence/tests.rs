@@ -132,7 +132,9 @@ proptest! {
             if arm { Label::Arm } else { Label::Background }
         }));
         let outward = if upright { Vector2::x() } else { Vector2::y() };
-        let seen = Point3::from(camera.ray(&Point2::new(u, v)).unwrap() * depth);
+        // Where it is in truth that the camera sees it there.
+        let as_stated = Point3::from(camera.ray(&Point2::new(u, v)).unwrap() * depth);
+        let seen = state.intrinsics.true_point(&as_stated);
         let in_base = state.camera_from_base.inverse().point(&seen);
         let arm = plane(Vector3::z());
         let pose = Transform::from_parts(in_base.coords, UnitQuaternion::identity());

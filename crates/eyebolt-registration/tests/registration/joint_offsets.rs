@@ -149,6 +149,6 @@ fn an_arm_without_offsets_is_given_none() {
     let outcome = refined_with(&told(&JointOffsets::default()));
     let largest = outcome.joint_offsets.rad.iter().fold(0.0, |most: f64, rad| most.max(rad.abs()));
     assert!(largest.to_degrees() < 0.02, "{} degrees", largest.to_degrees());
-    let prior = outcome.joint_prior_rad;
+    let prior = outcome.offset_prior.joints_rad;
     assert!(prior.iter().all(|prior| prior.to_degrees() < 0.02), "{prior:?}");
 }

@@ -4,7 +4,7 @@ use crate::refine::{observed, refined, truth};
 use crate::synthetic_arm::{ARM, CAMERA, scenes};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::{
-    JointPrior, Reach, RefineOptions, RefineView, Refinement, Start, Trust, refine, settle,
+    OffsetPrior, Reach, RefineOptions, RefineView, Refinement, Start, Trust, refine, settle,
 };
 use eyebolt_render::Raster;
 use nalgebra::Vector3;
@@ -21,7 +21,7 @@ fn without(views: &[RefineView<'_>], full: &Refinement, left_out: usize) -> Star
         iterations: 20,
         reach: Reach::Close,
         trust: Trust::All,
-        joint_prior: JointPrior::Known { rad: full.joint_prior_rad },
+        offset_prior: OffsetPrior::Known(full.offset_prior),
     };
     refine(&ARM, &kept, &mut rasters(kept.len()), &full.end(), &options).end()
 }

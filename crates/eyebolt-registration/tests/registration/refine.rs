@@ -3,7 +3,7 @@ use crate::strategies::on_threads;
 use crate::synthetic_arm::{ARM, CAMERA, Scene, looking, scenes};
 use eyebolt_geometry::{Base, Camera, Tangent, Transform};
 use eyebolt_registration::{
-    JointPrior, Label, Labels, OUTLINES, Reach, RefineOptions, RefineView, Refinement, SURFACES,
+    Label, Labels, OUTLINES, OffsetPrior, Reach, RefineOptions, RefineView, Refinement, SURFACES,
     Silhouette, StopReason, Trust, refine,
 };
 use eyebolt_render::Raster;
@@ -47,8 +47,8 @@ pub fn refined(
     trust: Trust,
 ) -> Refinement {
     let mut rasters: Vec<Raster> = views.iter().map(|_| Raster::new(&CAMERA)).collect();
-    let joint_prior = JointPrior::Estimated;
-    let options = RefineOptions { iterations: 40, reach: Reach::Far, trust, joint_prior };
+    let offset_prior = OffsetPrior::Estimated;
+    let options = RefineOptions { iterations: 40, reach: Reach::Far, trust, offset_prior };
     refine(&ARM, views, &mut rasters, &(*start).into(), &options)
 }
 

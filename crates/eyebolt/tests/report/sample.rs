@@ -88,8 +88,8 @@ pub fn all_reasons() -> Vec<Reason> {
         Reason::Inaccurate {
             translation_mm: 33.0,
             rotation_deg: 2.5,
-            limit_mm: 20.0,
-            limit_deg: 1.2,
+            limit_mm: 10.0,
+            limit_deg: 0.6,
         },
     ]
 }

@@ -1,11 +1,12 @@
 //! Laws of what is left over, on a box that a made-up camera sees exactly.
 
 use super::*;
+use crate::depth_noise::DepthNoise;
 use crate::observations::{Background, ImageSource};
 use eyebolt_geometry::{Base, Camera, DepthImage, Distortion, PinholeCamera, RayTable, Transform};
 use eyebolt_registration::{
-    ArmLink, ArmModel, JointOffsets, LinkModel, MOST_JOINTS, OUTLINES, Posture, SURFACES,
-    StopReason,
+    ArmLink, ArmModel, IntrinsicsOffset, JointOffsets, LinkModel, MOST_JOINTS, OUTLINES,
+    OffsetDeviations, Posture, SURFACES, StopReason,
 };
 use eyebolt_robot::TriangleMesh;
 use nalgebra::{Matrix6, Point3, UnitQuaternion, Vector3, Vector6};
@@ -45,6 +46,7 @@ fn observations() -> Observations {
         mask: None,
         base_from_end_effector: Transform::identity(),
         posture,
+        joints_rad: Vec::new(),
     };
     Observations {
         background: Background::None,
@@ -53,6 +55,7 @@ fn observations() -> Observations {
         optical_from_camera: Transform::identity(),
         source: ImageSource::DepthImages,
         arm: BOX.clone(),
+        noise: DepthNoise::learn(&[&configuration.depth]),
         configurations: vec![configuration],
         assumed_joints: Vec::new(),
         outside_limits: Vec::new(),
@@ -65,7 +68,8 @@ fn refinement(camera_from_base: Transform<Camera, Base>) -> Refinement {
         camera_from_base,
         joint_offsets: JointOffsets::default(),
         joint_sigma_rad: [0.0; MOST_JOINTS],
-        joint_prior_rad: [1.0; MOST_JOINTS],
+        intrinsics: IntrinsicsOffset::default(),
+        offset_prior: OffsetDeviations::NONE,
         nuisances: [0.0; EVIDENCE_KINDS],
         information: Matrix6::identity(),
         covariance: Matrix6::identity(),
