@@ -12,7 +12,7 @@ fn offsets(limit: f64) -> impl Strategy<Value = JointOffsets> {
 }
 
 fn joint_offsets([turn, shoulder, elbow, twist]: [f64; 4]) -> JointOffsets {
-    JointOffsets { rad: [turn, shoulder, elbow, twist, 0.0, 0.0, 0.0, 0.0] }
+    JointOffsets { rad: [turn, shoulder, elbow, twist, 0.0, 0.0, 0.0, 0.0], ..Default::default() }
 }
 
 /// How far apart two postures have any corner of a cube of 2 m at any link, metres.
@@ -40,7 +40,8 @@ proptest! {
 
     #[test]
     fn moving_twice_is_moving_by_the_sum(a in offsets(0.5), b in offsets(0.5)) {
-        let sum = JointOffsets { rad: std::array::from_fn(|joint| a.rad[joint] + b.rad[joint]) };
+        let rad = std::array::from_fn(|joint| a.rad[joint] + b.rad[joint]);
+        let sum = JointOffsets { rad, ..JointOffsets::default() };
         let twice = POSTURES[1].moved(&ARM, &a).moved(&ARM, &b);
         prop_assert!(apart(&twice, &POSTURES[1].moved(&ARM, &sum)) < 1e-12);
     }

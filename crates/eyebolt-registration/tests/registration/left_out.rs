@@ -22,6 +22,7 @@ fn without(views: &[RefineView<'_>], full: &Refinement, left_out: usize) -> Star
         reach: Reach::Close,
         trust: Trust::All,
         offset_prior: OffsetPrior::Known(full.offset_prior),
+        in_full: false,
     };
     refine(&ARM, &kept, &mut rasters(kept.len()), &full.end(), &options).end()
 }

@@ -48,7 +48,8 @@ pub fn refined(
 ) -> Refinement {
     let mut rasters: Vec<Raster> = views.iter().map(|_| Raster::new(&CAMERA)).collect();
     let offset_prior = OffsetPrior::Estimated;
-    let options = RefineOptions { iterations: 40, reach: Reach::Far, trust, offset_prior };
+    let (iterations, reach) = (40, Reach::Far);
+    let options = RefineOptions { iterations, reach, trust, offset_prior, in_full: true };
     refine(&ARM, views, &mut rasters, &(*start).into(), &options)
 }
 

@@ -8,7 +8,7 @@ use eyebolt::pipeline;
 use eyebolt::record::{RecordOptions, observe};
 use eyebolt::simulate::{Faults, Scenario};
 use eyebolt_geometry::{Base, Transform};
-use eyebolt_registration::{JointOffsets, MOST_JOINTS};
+use eyebolt_registration::JointOffsets;
 use eyebolt_render::Sensor;
 use eyebolt_robot::JointPositions;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -83,7 +83,7 @@ fn moved_joints_put_the_links_where_the_robot_has_them() {
         observe(recorded.recording.source(), &ARM, &CACHE, &RecordOptions::default()).unwrap();
     let names: Vec<_> = observations.arm.joints().iter().map(|joint| joint.name.clone()).collect();
     assert_eq!(names, ARM.required_joints());
-    let mut offsets = JointOffsets { rad: [0.0; MOST_JOINTS] };
+    let mut offsets = JointOffsets::default();
     for (joint, rad) in offsets.rad.iter_mut().enumerate().take(names.len()) {
         *rad = 0.05 * (joint as f64 - 2.5);
     }

@@ -69,6 +69,7 @@ fn refinement(camera_from_base: Transform<Camera, Base>) -> Refinement {
         joint_offsets: JointOffsets::default(),
         joint_sigma_rad: [0.0; MOST_JOINTS],
         intrinsics: IntrinsicsOffset::default(),
+        doubts: Vec::new(),
         offset_prior: OffsetDeviations::NONE,
         nuisances: [0.0; EVIDENCE_KINDS],
         information: Matrix6::identity(),
