@@ -86,3 +86,6 @@ pub(super) fn count_pixels(
     }
     counts
 }
+
+#[cfg(test)]
+mod tests;
