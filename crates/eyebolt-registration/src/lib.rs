@@ -35,8 +35,9 @@ pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    ChangePoint, Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Refinement, Residual,
-    Start, StopReason, Trust, ViewFit, change_point, refine, residuals, settle,
+    ChangePoint, Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView,
+    Refinement, Residual, Start, StopReason, Trust, ViewFit, change_point, refine, residuals,
+    settle,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

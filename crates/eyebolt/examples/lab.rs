@@ -116,7 +116,11 @@ impl Session<'_> {
                     .join(" ")
             };
             println!("    nuisances {:?} {:?}", refinement.nuisances, refinement.intrinsics);
-            println!("    joint offsets {} lengths {:?}", degrees(&refinement.joint_offsets.rad), refinement.joint_offsets.lengths_m);
+            println!(
+                "    joint offsets {} lengths {:?}",
+                degrees(&refinement.joint_offsets.rad),
+                refinement.joint_offsets.lengths_m
+            );
             println!("    joint prior   {}", degrees(&refinement.offset_prior.joints_rad));
         }
         for outcome in &found.configurations {

@@ -9,6 +9,8 @@ pub mod export;
 pub mod info;
 pub mod joint_limits;
 pub mod label;
+#[cfg(test)]
+mod made_up;
 pub mod observations;
 pub mod pipeline;
 pub mod pose;

@@ -26,7 +26,8 @@ impl Posture {
                 let shift = if joint.carries[link] { shift } else { Translation3::identity() };
                 *pose = Transform::<Base, Link>::from_isometry(shift * turn * pose.isometry());
             }
-            let turn = shift * self.axes()[index].turn(if joint.defines_base { 0.0 } else { angle });
+            let turn =
+                shift * self.axes()[index].turn(if joint.defines_base { 0.0 } else { angle });
             for axis in &mut axes[index + 1..] {
                 axis.through_in_base = turn * axis.through_in_base;
                 axis.along_in_base = turn.rotation * axis.along_in_base;

@@ -83,9 +83,8 @@ fn finish(
 ) -> Refinement {
     let weights = weights(gathered, scales, options);
     let system = System::new(gathered, clusters, &weights, Matrix::Reweighted);
-    let curved = options
-        .in_full
-        .then(|| System::new(gathered, clusters, &weights, Matrix::Curvature));
+    let curved =
+        options.in_full.then(|| System::new(gathered, clusters, &weights, Matrix::Curvature));
     let deviations = offset_deviations(arm, &system, state, options);
     summarise(gathered, &system, curved.as_ref(), &weights, state, &deviations, ending)
 }

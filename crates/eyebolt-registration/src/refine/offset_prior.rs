@@ -222,6 +222,7 @@ fn log_likelihood(offsets: &Offsets, covariance: &Covariance, deviations: &Offse
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::intrinsics_offset::INTRINSICS;
 
     const SIGMA_DEG: f64 = 0.02;
 
@@ -245,6 +246,47 @@ mod tests {
     fn joints_that_are_all_off_have_a_prior_as_wide() {
         let off = prior_deg([0.3, -0.25, 0.35, -0.3, -0.4, 0.3, 0.2, -0.3]);
         assert!(off.iter().all(|prior| (0.25..0.4).contains(prior)), "{off:?}");
+    }
+
+    /// Deviations of the intrinsics' priors, by these offsets in deviations of what is known of them.
+    fn intrinsics_prior(sigmas: [f64; INTRINSICS], joint_sigmas: f64) -> [f64; INTRINSICS] {
+        let mut offsets = Offsets::zeros();
+        offsets[2] = joint_sigmas * SIGMA_DEG.to_radians();
+        for (intrinsic, sigmas) in sigmas.into_iter().enumerate() {
+            offsets[2 * MOST_JOINTS + intrinsic] = sigmas * INTRINSIC_SIGMA;
+        }
+        let variance = Offsets::from_fn(|offset, _| match offset < MOST_JOINTS {
+            true => SIGMA_DEG.to_radians().powi(2),
+            false => INTRINSIC_SIGMA * INTRINSIC_SIGMA,
+        });
+        let prior = most_likely(&offsets, &Covariance::from_diagonal(&variance), [false; OFFSETS]);
+        std::array::from_fn(|intrinsic| prior[2 * MOST_JOINTS + intrinsic])
+    }
+
+    /// A thousandth of the focal length, half a pixel of six hundred.
+    const INTRINSIC_SIGMA: f64 = 1e-3;
+
+    #[test]
+    fn a_focal_length_that_is_clearly_off_stands_out() {
+        for sigmas in [-15.0, 15.0] {
+            let prior = intrinsics_prior([sigmas, 0.5, -0.5], 0.0);
+            assert!((0.010..0.020).contains(&prior[0]), "{prior:?}");
+            assert_eq!(prior[1..], [LEAST_INTRINSIC; 2]);
+        }
+        let prior = intrinsics_prior([0.3, -12.0, 14.0], 0.0);
+        assert_eq!(prior[0], LEAST_INTRINSIC);
+        assert!(prior[1..].iter().all(|deviation| *deviation > 0.010), "{prior:?}");
+    }
+
+    /// A joint would stand out at as many deviations.
+    #[test]
+    fn one_that_is_weakly_off_does_not() {
+        for sigmas in [-5.0, 1.0, 5.0] {
+            let prior = intrinsics_prior([sigmas, sigmas, -sigmas], 5.0);
+            assert_eq!(prior, [LEAST_INTRINSIC; INTRINSICS]);
+        }
+        let joint = prior_deg([0.0, 0.0, 5.0 * SIGMA_DEG, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!(joint[2] > 3.0 * SIGMA_DEG, "{joint:?}");
     }
 
     #[test]

@@ -58,8 +58,9 @@ pub struct Refinement {
     pub camera_from_base: Transform<Camera, Base>,
     /// How much farther the joints stand than they say, as far as the data tell.
     pub joint_offsets: JointOffsets,
-    /// Marginal standard deviation of each of them under a prior that is wide open, radians;
-    /// infinite where nothing is determined.
+    /// Root mean square error of each of them, radians: its marginal standard deviation under a prior
+    /// that is wide open, and how far it is from where the evidence has it under that prior; infinite
+    /// where nothing is determined.
     pub joint_sigma_rad: [f64; MOST_JOINTS],
     /// How far the true intrinsics are from those stated, as far as the data tell.
     pub intrinsics: IntrinsicsOffset,

@@ -45,10 +45,7 @@ pub(super) fn summarise(
     Refinement {
         camera_from_base: state.camera_from_base,
         joint_offsets: state.joint_offsets,
-        joint_sigma_rad: under_open_prior(system, state)
-            .map_or([f64::INFINITY; MOST_JOINTS], |(_, covariance)| {
-                std::array::from_fn(|joint| covariance[(joint, joint)].sqrt())
-            }),
+        joint_sigma_rad: joint_sigma(system, state),
         intrinsics: state.intrinsics,
         offset_prior: *deviations,
         doubts: curved.map_or_else(Vec::new, |_| doubts(system, state, deviations)),
@@ -63,6 +60,17 @@ pub(super) fn summarise(
         last_step,
         stop: if covariance.is_none() { StopReason::Underdetermined } else { stop },
     }
+}
+
+/// What the prior took off an offset is as likely an error of it as the deviation of what is seen.
+fn joint_sigma(system: &System<'_>, state: &State) -> [f64; MOST_JOINTS] {
+    let Some((alone, covariance)) = under_open_prior(system, state) else {
+        return [f64::INFINITY; MOST_JOINTS];
+    };
+    std::array::from_fn(|joint| {
+        let taken_off = alone[joint] - state.joint_offsets.rad[joint];
+        covariance[(joint, joint)].sqrt().hypot(taken_off)
+    })
 }
 
 fn view_fit(view: &ViewFactors, deviations: &[f64; EVIDENCE_KINDS]) -> ViewFit {

@@ -82,7 +82,7 @@ fn a_view_whose_points_are_all_foreign_does_not_lead_the_others_astray() {
     let truth = looking(Vector3::new(0.9, -0.8, 0.9), Vector3::new(0.0, 0.0, 0.4), 2.0);
     let scenes = scenes(&truth, None);
     for foreign in 0..scenes.len() {
-        for away in [Vector3::new(0.0, 0.0, 4.0), Vector3::new(-2.5, 0.6, 1.5)] {
+        for away in [Vector3::new(0.0, 0.0, 12.0), Vector3::new(-9.0, 3.0, 8.0)] {
             let mut views = views(&scenes);
             // No mask says that those points are none of the arm's.
             for view in &mut views {

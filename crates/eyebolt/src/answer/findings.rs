@@ -82,8 +82,10 @@ pub(super) fn link_lengths(outcome: &Outcome) -> Vec<LinkLength> {
     let lengths = refinement.joint_offsets.lengths_m.iter().zip(&refinement.offset_prior.lengths_m);
     let joints = observations.arm.joints().iter().zip(lengths);
     let stood_out = joints.filter(|(_, (_, prior))| **prior > LENGTH_STOOD_OUT_M);
-    let told = stood_out
-        .map(|(joint, (longer, _))| LinkLength { joint: joint.name.clone(), longer_mm: 1e3 * longer });
+    let told = stood_out.map(|(joint, (longer, _))| LinkLength {
+        joint: joint.name.clone(),
+        longer_mm: 1e3 * longer,
+    });
     told.collect()
 }
 

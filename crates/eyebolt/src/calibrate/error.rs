@@ -240,3 +240,6 @@ fn to_optical(work: &Workspace<'_, '_>) -> Matrix6<f64> {
     both.fixed_view_mut::<3, 3>(3, 3).copy_from(turn.matrix());
     both
 }
+
+#[cfg(test)]
+mod tests;

@@ -57,7 +57,8 @@ pub(super) fn unknown_parts(
             let along = || cells.iter().map(|cell| cell[axis]);
             along().max().zip(along().min()).map_or(0, |(high, low)| high - low + 1)
         };
-        let size_m = (0..3).map(extent).max().map_or(0.0, |side| f64::from(CELL_M) * f64::from(side));
+        let size_m =
+            (0..3).map(extent).max().map_or(0.0, |side| f64::from(CELL_M) * f64::from(side));
         (cells.len() >= LEAST_CELLS).then(|| UnknownPart { link: model.name.clone(), size_m })
     };
     links.filter_map(part).collect()
@@ -93,10 +94,7 @@ fn beside(observations: &Observations, mask: &Mask, index: usize, at: &Start) ->
     cells
 }
 
-fn cell(
-    base_from_link: &Transform<Base, Link>,
-    point_in_base: &Point3<f32>,
-) -> [i32; 3] {
+fn cell(base_from_link: &Transform<Base, Link>, point_in_base: &Point3<f32>) -> [i32; 3] {
     let in_link: Vector3<f64> = base_from_link.inverse().point(&point_in_base.cast()).coords;
     in_link.map(|x| (x / f64::from(CELL_M)).floor() as i32).into()
 }

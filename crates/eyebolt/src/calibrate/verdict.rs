@@ -105,8 +105,7 @@ fn joint_off(findings: &Findings<'_>) -> Option<Reason> {
     let joints = findings.joints.iter().zip(offsets).zip(findings.error.joint_sigma_rad);
     // A joint that is hardly seen takes up whatever is wrong with depth: only what is sure counts. What
     // that does to the pose is part of the expected error.
-    let far =
-        joints.map(|((joint, rad), sigma)| (joint, rad, rad.abs() - JOINT_SIGMAS * sigma));
+    let far = joints.map(|((joint, rad), sigma)| (joint, rad, rad.abs() - JOINT_SIGMAS * sigma));
     let (joint, rad, far) = far.max_by(|(.., a), (.., b)| a.total_cmp(b))?;
     (far > JOINT_OFF_RAD).then(|| Reason::JointOff {
         joint: joint.name.clone(),

@@ -177,3 +177,6 @@ fn neighbours(at: usize, width: usize, count: usize) -> [Option<usize>; 4] {
         (at + width < count).then(|| at + width),
     ]
 }
+
+#[cfg(test)]
+mod tests;

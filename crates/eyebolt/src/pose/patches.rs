@@ -64,3 +64,6 @@ pub(super) fn middles(
 fn is_beside(a: usize, b: usize, width: usize) -> bool {
     a / width == b / width || a % width == b % width
 }
+
+#[cfg(test)]
+mod tests;

@@ -99,3 +99,6 @@ pub(super) fn count_pixels(
     }
     counts
 }
+
+#[cfg(test)]
+mod tests;

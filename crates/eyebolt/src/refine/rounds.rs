@@ -20,10 +20,8 @@ pub const OPENING: &[RefineOptions] =
     &[RefineOptions { offset_prior: AT_THEIR_WORD, ..options(4, Reach::Far) }];
 
 /// From there to the answer.
-pub const CLOSING: &[RefineOptions] = &[
-    options(5, Reach::Near),
-    RefineOptions { in_full: true, ..options(20, Reach::Close) },
-];
+pub const CLOSING: &[RefineOptions] =
+    &[options(5, Reach::Near), RefineOptions { in_full: true, ..options(20, Reach::Close) }];
 
 /// From an answer to what it would be with other data, in so many steps.
 pub const fn again(iterations: usize) -> RefineOptions {

@@ -19,12 +19,17 @@ pub const FRAMES: [usize; 5] = [0, 1, 2, 3, 4];
 
 /// The shared data, or `None` said loudly.
 pub fn shared() -> Option<PathBuf> {
+    shared_with("data/recordings/lbr_med7_zed2i")
+}
+
+/// The shared data with this recording, or `None` said loudly.
+pub fn shared_with(recording: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("EYEBOLT_SHARED").map(PathBuf::from);
-    let folder = folder.filter(|folder| folder.join("data/recordings/lbr_med7_zed2i").is_dir());
+    let folder = folder.filter(|folder| folder.join(recording).is_dir());
     if folder.is_none() {
         // Past the test harness, which would keep it for itself.
         let remedy = "set EYEBOLT_SHARED to the folder of shared data";
-        let _ = writeln!(std::io::stderr(), "SKIPPED a test on the real recording: {remedy}");
+        let _ = writeln!(std::io::stderr(), "SKIPPED a test on {recording}: {remedy}");
     }
     folder
 }

@@ -5,6 +5,7 @@ mod answers;
 mod configurations;
 mod description;
 mod evaluation;
+mod exchanged;
 mod faults;
 mod in_memory;
 mod joint_offsets;
