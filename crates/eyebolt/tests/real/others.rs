@@ -21,8 +21,6 @@ struct Recorded {
     robot: [&'static str; 3],
     /// `base_from_camera` of another program, row by row; see the recording's notes.
     reference: [[f64; 4]; 3],
-    /// How far apart the answers of that kind from even and from odd frames are: millimetres, degrees.
-    halves_apart: (f64, f64),
 }
 
 const XARM: Recorded = Recorded {
@@ -42,7 +40,6 @@ const XARM: Recorded = Recorded {
         [0.997_774_899, -0.036_309_376, 0.055_932_160, -0.232_904_360],
         [-0.034_805_637, -0.999_012_053, -0.027_629_653, 0.352_675_050],
     ],
-    halves_apart: (22.0, 1.2),
 };
 
 const LBR: Recorded = Recorded {
@@ -58,7 +55,6 @@ const LBR: Recorded = Recorded {
         [-0.832_361_857, 0.033_931_721, 0.553_192_893, -0.383_747_502],
         [0.252_860_585, -0.864_940_212, 0.433_520_420, -0.137_577_649],
     ],
-    halves_apart: (6.8, 0.34),
 };
 
 impl Recorded {
@@ -87,18 +83,11 @@ impl Recorded {
         variant.opened(shared, folder)
     }
 
-    /// All of it is trusted, and in the middle of the workspace no farther from the reference than what is
-    /// trusted may be off, and the reference by half of what it changes with the frames.
+    /// All of it is trusted, and no farther from the reference than this.
     #[track_caller]
-    fn assert_trusted(&self, shared: &Path, masks: bool) {
-        let outcome = self.open(shared, self.numbers, masks).run();
-        let pose = trusted(&outcome);
-        let at = outcome.calibration.error.as_ref().unwrap().workspace_in_base;
-        let off = Deviation::between(&pose, &self.reference(), &at);
-        let (mm, degrees) = (1e3 * off.translation_m, off.rotation_rad.to_degrees());
-        let Limits { expected, .. } = Limits::default();
-        let far_mm = 1e3 * expected.translation_m + 0.5 * self.halves_apart.0;
-        let far_deg = expected.rotation_rad.to_degrees() + 0.5 * self.halves_apart.1;
+    fn assert_trusted(&self, shared: &Path, masks: bool, (far_mm, far_deg): (f64, f64)) {
+        let pose = trusted(&self.open(shared, self.numbers, masks).run());
+        let (mm, degrees) = apart(&pose, &self.reference());
         assert!(mm <= far_mm && degrees <= far_deg, "{mm} mm, {degrees} degrees");
     }
 
