@@ -13,8 +13,6 @@ pub enum Margin {
     Label,
     /// About where the surface of a pose is that is centimetres off.
     Search,
-    /// Seen through by more than a link in its place is: rims and bearings are off by a little more.
-    SeenThrough,
     /// Clearly before what was seen at another time.
     Moved,
     /// Close to the surface without being of it: the table at the foot of the arm, a tool.
@@ -36,7 +34,6 @@ impl Margin {
             Self::Refined => 0.6,
             Self::Label => 0.8,
             Self::Search => 1.0,
-            Self::SeenThrough => 1.2,
             Self::Moved => 1.5,
             Self::Beside => 2.0,
         }
@@ -49,8 +46,8 @@ mod tests {
 
     #[test]
     fn margins_are_in_order_and_grow_with_the_square_of_the_distance() {
-        use Margin::{Beside, Label, Moved, Refined, Search, SeenThrough};
-        let rising = [Refined, Label, Search, SeenThrough, Moved, Beside];
+        use Margin::{Beside, Label, Moved, Refined, Search};
+        let rising = [Refined, Label, Search, Moved, Beside];
         for pair in rising.windows(2) {
             assert!(pair[0].at_m(1.3) < pair[1].at_m(1.3));
         }

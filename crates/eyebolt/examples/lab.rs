@@ -21,7 +21,7 @@ use eyebolt_recording::{BagOptions, Frame, FrameSource, Recording, RecordingErro
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Random;
 use eyebolt_robot::{Arm, JointPositions, PackageRoots, Robot};
-use nalgebra::{Isometry3, Matrix4, Point3};
+use nalgebra::{Matrix4, Point3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -243,11 +243,8 @@ fn truth(path: &Path) -> Result<Option<Transform<Camera, Base>>, Box<dyn Error>>
     let value: serde_json::Value = serde_json::from_str(&text)?;
     let rows: [[f64; 4]; 4] = serde_json::from_value(value["camera_from_base"].clone())?;
     let matrix = Matrix4::from_fn(|r, c| rows[r][c]);
-    let rotation =
-        nalgebra::UnitQuaternion::from_matrix(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
-    let translation = matrix.fixed_view::<3, 1>(0, 3).into_owned();
-    let pose = Isometry3::from_parts(translation.into(), rotation);
-    Ok(Some(Transform::from_isometry(pose)))
+    let pose = Transform::from_matrix(&matrix, 1e-5);
+    pose.map(Some).ok_or_else(|| format!("{}: not a rigid motion", path.display()).into())
 }
 
 /// `most` of all triples of `count` things, or all if there are no more.

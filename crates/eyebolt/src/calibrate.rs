@@ -14,6 +14,7 @@ mod verdict;
 
 pub use calibration::Calibration;
 pub use deviation::Deviation;
+pub(crate) use error::covariance_at;
 pub use error::{ErrorEstimate, ErrorPart, ErrorSource};
 pub use jackknife::Jackknife;
 pub use judge::calibrate;

@@ -4,7 +4,7 @@
 //! Most pixels show the same surface in two configurations. How far apart they are there tells the
 //! noise at that depth: what a camera's data sheet does not say of a white wall five metres away.
 
-use crate::evenly::evenly;
+use crate::evenly::evenly_others;
 use eyebolt_geometry::DepthImage;
 use eyebolt_registration::{Margin, median};
 use rayon::prelude::*;
@@ -78,14 +78,14 @@ const MOST_OTHERS: usize = 8;
 
 /// The one of the other images that differs least from number `own`.
 fn most_alike(images: &[&DepthImage], own: usize) -> Option<usize> {
-    let others: Vec<usize> = (0..images.len()).filter(|other| *other != own).collect();
+    let others = evenly_others(images.len(), own, MOST_OTHERS);
     let apart = |other: usize| {
         let pairs = compared(images[own], images[other], FEW_SAMPLES);
         let mut differences: Vec<f64> =
             pairs.map(|(_, difference)| f64::from(difference)).collect();
         Some((other, median(&mut differences)?))
     };
-    let all = evenly(&others, MOST_OTHERS).into_iter().filter_map(apart);
+    let all = others.into_iter().filter_map(apart);
     all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(other, _)| other)
 }
 

@@ -6,6 +6,12 @@ pub(crate) fn evenly(indices: &[usize], most: usize) -> Vec<usize> {
     (0..count).map(|i| indices[i * (indices.len() - 1) / (count - 1).max(1)]).collect()
 }
 
+/// At most `most` of the indices below `count` but `own`, evenly chosen.
+pub(crate) fn evenly_others(count: usize, own: usize, most: usize) -> Vec<usize> {
+    let others: Vec<usize> = (0..count).filter(|other| *other != own).collect();
+    evenly(&others, most)
+}
+
 #[cfg(test)]
 mod tests {
     use super::evenly;

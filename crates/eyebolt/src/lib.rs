@@ -2,6 +2,7 @@
 
 pub mod answer;
 pub mod calibrate;
+mod connected;
 pub mod depth_noise;
 pub mod evaluate;
 mod evenly;

@@ -6,9 +6,6 @@ use super::posture::Posture;
 use eyebolt_geometry::{Base, Link, Transform};
 use nalgebra::{Point3, Translation3, Vector3};
 
-/// A joint nearer than this to the one before it is of the same housing, metres.
-const LONG_M: f64 = 0.05;
-
 impl Posture {
     /// The same arm with its joints farther, and its links longer, by `offsets`.
     ///
@@ -20,7 +17,7 @@ impl Posture {
         let (mut poses, mut axes) = (self.base_from_link().to_vec(), self.axes().to_vec());
         for (index, joint) in arm.joints().iter().enumerate().take(axes.len()).rev() {
             let angle = offsets.rad[index];
-            let shift = Translation3::from(offsets.lengths_m[index] * self.lengthening(index));
+            let shift = Translation3::from(offsets.lengths_m[index] * self.lengthenings()[index]);
             for (link, pose) in poses.iter_mut().enumerate() {
                 let turn = self.axes()[index].turn(joint.turns(link) * angle);
                 let shift = if joint.carries[link] { shift } else { Translation3::identity() };
@@ -34,14 +31,6 @@ impl Posture {
             }
         }
         Self::new(arm, poses).with_axes(axes)
-    }
-
-    /// Where a joint goes when the link before it grows, metres for each metre; base frame.
-    pub(crate) fn lengthening(&self, joint: usize) -> Vector3<f64> {
-        let before = joint.checked_sub(1).and_then(|before| self.axes().get(before));
-        let pair = before.zip(self.axes().get(joint));
-        let along = pair.map(|(before, own)| own.through_in_base - before.through_in_base);
-        along.filter(|along| along.norm() > LONG_M).map_or(Vector3::zeros(), |v| v.normalize())
     }
 
     /// The joints with their axes and their place among the arm's joints.

@@ -13,6 +13,8 @@ pub struct Posture {
     base_from_link: Vec<Transform<Base, Link>>,
     placed: Vec<Placed>,
     axes: Vec<JointAxis>,
+    /// Where each joint goes when the link before it grows, metres for each metre; base frame.
+    lengthenings: Vec<Vector3<f64>>,
     /// Corners of a box about the spheres of all links, base frame.
     about: (Point3<f32>, Point3<f32>),
 }
@@ -36,6 +38,16 @@ fn about(placed: &[Placed]) -> (Point3<f32>, Point3<f32>) {
         high = high.sup(&(link.centre_in_base + radius));
     }
     (low, high)
+}
+
+/// A joint nearer than this to the one before it is of the same housing, metres.
+const LONG_M: f64 = 0.05;
+
+fn lengthening(axes: &[JointAxis], joint: usize) -> Vector3<f64> {
+    let before = joint.checked_sub(1).and_then(|before| axes.get(before));
+    let pair = before.zip(axes.get(joint));
+    let along = pair.map(|(before, own)| own.through_in_base - before.through_in_base);
+    along.filter(|along| along.norm() > LONG_M).map_or(Vector3::zeros(), |v| v.normalize())
 }
 
 /// The surface of the arm nearest to a point.
@@ -66,7 +78,7 @@ impl Posture {
         });
         let placed: Vec<Placed> = placed.collect();
         let about = about(&placed);
-        Self { placed, base_from_link, axes: Vec::new(), about }
+        Self { placed, base_from_link, axes: Vec::new(), lengthenings: Vec::new(), about }
     }
 
     /// The same posture, where the arm's joints have their axes at `axes`, in the order of
@@ -74,7 +86,8 @@ impl Posture {
     #[must_use]
     pub fn with_axes(self, mut axes: Vec<JointAxis>) -> Self {
         axes.truncate(MOST_JOINTS);
-        Self { axes, ..self }
+        let lengthenings = (0..axes.len()).map(|joint| lengthening(&axes, joint)).collect();
+        Self { axes, lengthenings, ..self }
     }
 
     /// Pose of each link of the model.
@@ -85,6 +98,11 @@ impl Posture {
     /// The axes of the joints, in the order of [`ArmModel::joints`]; none unless they were given.
     pub(crate) fn axes(&self) -> &[JointAxis] {
         &self.axes
+    }
+
+    /// Where each joint goes when the link before it grows, metres for each metre; base frame.
+    pub(crate) fn lengthenings(&self) -> &[Vector3<f64>] {
+        &self.lengthenings
     }
 
     /// Signed distance from `point_in_base` (metres) to the arm.

@@ -46,7 +46,7 @@ impl PosedArm<'_> {
                 jacobian[FIRST_JOINT + place] = turns * axis.derivative(gradient, point);
             }
             if joint.carries[link] {
-                jacobian[FIRST_LENGTH + place] = gradient.dot(&self.posture.lengthening(place));
+                jacobian[FIRST_LENGTH + place] = gradient.dot(&self.posture.lengthenings()[place]);
             }
         }
     }

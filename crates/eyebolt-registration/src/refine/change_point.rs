@@ -47,7 +47,8 @@ pub fn change_point(
     let system = System::new(&gathered, &clusters, &weights, Matrix::Reweighted);
     let whole = with_priors(system.total(), &state, &refinement.offset_prior);
     let views: Vec<Sum> = (0..views.len()).map(|view| system.total_of(view)).collect();
-    let statistic = |after: &[usize]| two_poses(&whole, &views, after);
+    let without = whole.gradient.dot(&whole.information.cholesky()?.solve(&whole.gradient));
+    let statistic = |after: &[usize]| Some(two_poses(&whole, &views, after)? - without);
     let places = least..(views.len() + 1).saturating_sub(least);
     let scored = places.filter_map(|before| {
         let after: Vec<usize> = (before..views.len()).collect();
@@ -62,8 +63,8 @@ pub fn change_point(
     Some(ChangePoint { before, statistic: best, exchanged: exchanged.fold(0.0, f64::max) })
 }
 
-/// How much better a second pose for the views `after` explains them: twice the logarithm of the
-/// likelihood ratio. `whole` is the problem with its priors, `views` the sums of each view.
+/// By how much the cost falls, twice, with a second pose for the views `after`. `whole` is the problem with
+/// its priors, `views` the sums of each view.
 fn two_poses(whole: &Sum, views: &[Sum], after: &[usize]) -> Option<f64> {
     let mut sum = Sum::default();
     after.iter().for_each(|view| sum.add_all(&views[*view]));
@@ -77,7 +78,5 @@ fn two_poses(whole: &Sum, views: &[Sum], after: &[usize]) -> Option<f64> {
     information.view_mut((UNKNOWNS, UNKNOWNS), (POSE, POSE)).copy_from(&block);
     gradient.rows_mut(0, UNKNOWNS).copy_from(&whole.gradient);
     gradient.rows_mut(UNKNOWNS, POSE).copy_from(&sum.gradient.fixed_rows::<POSE>(0));
-    let with_change = gradient.dot(&information.cholesky()?.solve(&gradient));
-    let without = whole.gradient.dot(&whole.information.cholesky()?.solve(&whole.gradient));
-    Some(with_change - without)
+    Some(gradient.dot(&information.cholesky()?.solve(&gradient)))
 }

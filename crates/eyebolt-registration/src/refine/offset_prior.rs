@@ -51,7 +51,7 @@ pub(super) fn estimate(
 ) -> OffsetDeviations {
     let mut apart = [false; OFFSETS];
     apart[..MOST_JOINTS].copy_from_slice(&gauge);
-    let Some((mut offsets, covariance)) = under_open_prior(system, state) else {
+    let Some(UnderOpenPrior { mut offsets, covariance }) = under_open_prior(system, state) else {
         return OffsetDeviations::from_fn(least);
     };
     for joint in (0..MOST_JOINTS).filter(|joint| gauge[*joint]) {
@@ -116,20 +116,22 @@ pub struct Doubt {
     pub shift: Vector6<f64>,
 }
 
-/// The doubts that remain of lengths and intrinsics at `state`, which came with `deviations`.
+/// The doubts that remain of lengths and intrinsics at `state`, which came with `deviations`, by what is
+/// said of the offsets under an `open` prior.
 pub(super) fn doubts(
+    open: &UnderOpenPrior,
     system: &System<'_>,
     state: &State,
     deviations: &OffsetDeviations,
 ) -> Vec<Doubt> {
-    let Some((offsets, covariance)) = under_open_prior(system, state) else { return Vec::new() };
-    let given = Offsets::from_fn(|offset, _| deviations.of(offset));
-    let likelihood = log_likelihood(&offsets, &covariance, &given);
+    let UnderOpenPrior { offsets, covariance } = open;
+    let given = Offsets::from(deviations.numbers());
+    let likelihood = log_likelihood(offsets, covariance, &given);
     let doubtful = (MOST_JOINTS..OFFSETS).filter(|offset| given[*offset] <= least(*offset));
     let doubt = |offset: usize| {
         let mut wide = given;
         wide[offset] = offsets[offset].abs().max(least(offset));
-        let log_evidence = log_likelihood(&offsets, &covariance, &wide) - likelihood;
+        let log_evidence = log_likelihood(offsets, covariance, &wide) - likelihood;
         let wide = OffsetDeviations::from_fn(|offset| wide[offset]);
         let step = with_priors(system.total(), state, &wide).solve(1e-6)?;
         Some(Doubt { log_evidence, shift: step.fixed_rows::<POSE>(0).into_owned() })
@@ -138,17 +140,21 @@ pub(super) fn doubts(
 }
 
 /// What the evidence says of the offsets if they may be anything, and how surely.
-pub(super) fn under_open_prior(
-    system: &System<'_>,
-    state: &State,
-) -> Option<(Offsets, Covariance)> {
+pub(super) struct UnderOpenPrior {
+    pub offsets: Offsets,
+    pub covariance: Covariance,
+}
+
+/// Asks the evidence of `system` at `state`; `None` where it does not determine every unknown.
+pub(super) fn under_open_prior(system: &System<'_>, state: &State) -> Option<UnderOpenPrior> {
     let open = OffsetDeviations::from_fn(open);
     let sum = with_priors(system.total(), state, &open);
     let step = sum.solve(1e-6)?;
     let covariance = sandwich(system, &sum, state, &open, &step)?;
-    let offsets = step.fixed_rows::<OFFSETS>(FIRST_JOINT).into_owned();
+    let steps = step.fixed_rows::<OFFSETS>(FIRST_JOINT).into_owned();
     let block = covariance.fixed_view::<OFFSETS, OFFSETS>(FIRST_JOINT, FIRST_JOINT);
-    Some((Offsets::from(state.offsets()) + offsets, block * OVERCONFIDENCE))
+    let offsets = Offsets::from(state.offsets()) + steps;
+    Some(UnderOpenPrior { offsets, covariance: block * OVERCONFIDENCE })
 }
 
 /// The deviations that make `offsets`, known up to `covariance`, most likely; those `apart` are off by

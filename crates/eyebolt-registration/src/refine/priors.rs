@@ -20,13 +20,9 @@ pub(super) fn priors(state: &State, deviations: &OffsetDeviations) -> impl Itera
             let deviation = evidence.nuisance_deviation();
             Prior { unknown: FIRST_NUISANCE + kind, value, deviation }
         };
-    let deviations = *deviations;
-    let offsets = state.offsets().into_iter().enumerate();
-    let of_offset = move |(offset, value)| Prior {
-        unknown: FIRST_JOINT + offset,
-        value,
-        deviation: deviations.of(offset),
-    };
+    let offsets = state.offsets().into_iter().zip(deviations.numbers()).enumerate();
+    let of_offset =
+        |(offset, (value, deviation))| Prior { unknown: FIRST_JOINT + offset, value, deviation };
     nuisances.map(of_kind).chain(offsets.map(of_offset))
 }
 

@@ -4,7 +4,7 @@ use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::evidence::Reach;
 use crate::intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 use crate::silhouette::Silhouette;
-use crate::unknowns::{EVIDENCE_KINDS, SURFACES, State};
+use crate::unknowns::{EVIDENCE_KINDS, OFFSETS, SURFACES, State};
 use crate::view::View;
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::Point3;
@@ -76,9 +76,11 @@ impl OffsetDeviations {
         intrinsics: [1e-6; INTRINSICS],
     };
 
-    pub(crate) fn of(&self, offset: usize) -> f64 {
-        let all = self.joints_rad.iter().chain(&self.lengths_m).chain(&self.intrinsics);
-        all.copied().nth(offset).expect("as many deviations as offsets")
+    /// Of each offset, in the order of the unknowns.
+    pub(crate) fn numbers(&self) -> [f64; OFFSETS] {
+        let Self { joints_rad, lengths_m, intrinsics } = *self;
+        let mut all = joints_rad.into_iter().chain(lengths_m).chain(intrinsics);
+        std::array::from_fn(|_| all.next().expect("as many deviations as offsets"))
     }
 
     pub(crate) fn from_fn(mut deviation: impl FnMut(usize) -> f64) -> Self {

@@ -3,7 +3,7 @@
 use super::covariance::sandwich;
 use super::gather::ViewFactors;
 use super::left_out::without_each;
-use super::offset_prior::{doubts, under_open_prior};
+use super::offset_prior::{UnderOpenPrior, doubts, under_open_prior};
 use super::outcome::{Fit, Refinement, StopReason, ViewFit};
 use super::priors::with_priors;
 use super::start::OffsetDeviations;
@@ -41,14 +41,17 @@ pub(super) fn summarise(
     let [left_out, groups_left_out] = curved.map_or_else(Default::default, |curved| {
         without_each(system, curved, state, deviations, gathered.len())
     });
+    let open = under_open_prior(system, state);
     let Ending { iterations, last_step, stop } = ending;
     Refinement {
         camera_from_base: state.camera_from_base,
         joint_offsets: state.joint_offsets,
-        joint_sigma_rad: joint_sigma(system, state),
+        joint_sigma_rad: joint_sigma(open.as_ref(), state),
         intrinsics: state.intrinsics,
         offset_prior: *deviations,
-        doubts: curved.map_or_else(Vec::new, |_| doubts(system, state, deviations)),
+        doubts: open
+            .filter(|_| curved.is_some())
+            .map_or_else(Vec::new, |open| doubts(&open, system, state, deviations)),
         nuisances: state.nuisances,
         information,
         covariance: covariance.unwrap_or_else(|| Matrix6::from_element(f64::INFINITY)),
@@ -63,12 +66,12 @@ pub(super) fn summarise(
 }
 
 /// What the prior took off an offset is as likely an error of it as the deviation of what is seen.
-fn joint_sigma(system: &System<'_>, state: &State) -> [f64; MOST_JOINTS] {
-    let Some((alone, covariance)) = under_open_prior(system, state) else {
+fn joint_sigma(open: Option<&UnderOpenPrior>, state: &State) -> [f64; MOST_JOINTS] {
+    let Some(UnderOpenPrior { offsets, covariance }) = open else {
         return [f64::INFINITY; MOST_JOINTS];
     };
     std::array::from_fn(|joint| {
-        let taken_off = alone[joint] - state.joint_offsets.rad[joint];
+        let taken_off = offsets[joint] - state.joint_offsets.rad[joint];
         covariance[(joint, joint)].sqrt().hypot(taken_off)
     })
 }

@@ -222,14 +222,24 @@ fn expected(
     pose: &Transform<Camera, Base>,
     at_in_base: &Point3<f64>,
 ) -> Deviation {
-    // A point of the base moves by the translation and by the rotation about the base's origin.
+    let point = covariance_at(covariance, pose, at_in_base);
+    let rotation = covariance.fixed_view::<3, 3>(3, 3).trace();
+    Deviation { translation_m: point.trace().sqrt(), rotation_rad: rotation.sqrt() }
+}
+
+/// Covariance of where a point of the base is, by the `covariance` of its `pose`, both along the camera's
+/// axes.
+pub(crate) fn covariance_at(
+    covariance: &Matrix6<f64>,
+    pose: &Transform<Camera, Base>,
+    at_in_base: &Point3<f64>,
+) -> Matrix3<f64> {
+    // The point moves by the translation and by the rotation about the base's origin.
     let arm = pose.direction(&at_in_base.coords);
     let mut by_pose = SMatrix::<f64, 3, 6>::zeros();
     by_pose.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity());
     by_pose.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
-    let point = by_pose * covariance * by_pose.transpose();
-    let rotation = covariance.fixed_view::<3, 3>(3, 3).trace();
-    Deviation { translation_m: point.trace().sqrt(), rotation_rad: rotation.sqrt() }
+    by_pose * covariance * by_pose.transpose()
 }
 
 /// Turns covariances from the observations' camera frame to the optical one.

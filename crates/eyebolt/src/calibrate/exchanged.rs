@@ -5,7 +5,7 @@
 
 use crate::observations::Observations;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{JointOffsets, Margin, Start, View};
+use eyebolt_registration::{Margin, Start, View};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -30,38 +30,52 @@ pub(super) fn exchanged(
     let joints = observations.arm.joints();
     let pairs = (0..joints.len()).flat_map(|a| (a + 1..joints.len()).map(move |b| [a, b]));
     let pairs: Vec<[usize; 2]> = pairs.filter(|[a, _]| !joints[*a].defines_base).collect();
-    let gains: Vec<f64> =
-        pairs.par_iter().map(|pair| gain(observations, used, at, *pair)).collect();
+    let firsts = pairs.last().map_or(0, |[last, _]| last + 1);
+    let given: Vec<Vec<Option<f64>>> = (0..firsts)
+        .into_par_iter()
+        .map(|first| misfits(observations, used, at, first, first))
+        .collect();
+    let gain = |[first, second]: &[usize; 2]| {
+        gain(&given[*first], &misfits(observations, used, at, *first, *second))
+    };
+    let gains: Vec<f64> = pairs.par_iter().map(gain).collect();
     let (pair, gain) = pairs.iter().zip(gains).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     tracing::debug!(?pair, gain, "the exchange of two joints that fits best");
     (gain > LEAST_GAIN).then(|| pair.map(|joint| joints[joint].name.clone()))
 }
 
-/// By how much less the links that the exchange of `pair` moves are off with it, as a share of what they
-/// are off without.
-fn gain(observations: &Observations, used: &[usize], at: &Start, pair: [usize; 2]) -> f64 {
+/// By how much less is off with the exchange than as `given`, as a share of that; each for each
+/// configuration.
+fn gain(given: &[Option<f64>], exchanged: &[Option<f64>]) -> f64 {
+    let both = given.iter().zip(exchanged).filter_map(|(given, exchanged)| given.zip(*exchanged));
+    let (given, exchanged) = both.fold((0.0, 0.0), |sum, both| (sum.0 + both.0, sum.1 + both.1));
+    if given > 0.0 { (given - exchanged) / given } else { 0.0 }
+}
+
+/// Misfit of the links that joint `first` moves in each of the configurations `used`, with the positions
+/// of `first` and `second` exchanged; as recorded if they are the same.
+fn misfits(
+    observations: &Observations,
+    used: &[usize],
+    at: &Start,
+    first: usize,
+    second: usize,
+) -> Vec<Option<f64>> {
     let arm = &observations.arm;
     let moved: Vec<usize> =
-        (0..arm.links().len()).filter(|link| arm.joints()[pair[0]].carries[*link]).collect();
-    let (mut given, mut exchanged) = (0.0, 0.0);
-    for index in used {
+        (0..arm.links().len()).filter(|link| arm.joints()[first].carries[*link]).collect();
+    let of_one = |index: &usize| {
         let configuration = &observations.configurations[*index];
-        let Some([a, b]) = positions(&configuration.joints_rad, pair) else { continue };
+        let [a, b] = positions(&configuration.joints_rad, [first, second])?;
         let mut offsets = at.joint_offsets;
-        offsets.rad[pair[0]] += b - a;
-        offsets.rad[pair[1]] += a - b;
-        let view = View { depth_factor: at.depth_factor(), ..observations.view(configuration) };
-        let misfit = |offsets: &JointOffsets| {
-            let posture = configuration.posture.moved(arm, offsets);
-            let view = View { posture: &posture, ..view };
-            misfit(observations, &view, &moved, &at.camera_from_base)
-        };
-        if let Some((as_given, other)) = misfit(&at.joint_offsets).zip(misfit(&offsets)) {
-            given += as_given;
-            exchanged += other;
-        }
-    }
-    if given > 0.0 { (given - exchanged) / given } else { 0.0 }
+        offsets.rad[first] += b - a;
+        offsets.rad[second] += a - b;
+        let posture = &configuration.posture.moved(arm, &offsets);
+        let depth_factor = at.depth_factor();
+        let view = View { posture, depth_factor, ..observations.view(configuration) };
+        misfit(observations, &view, &moved, &at.camera_from_base)
+    };
+    used.iter().map(of_one).collect()
 }
 
 fn positions(joints_rad: &[f64], pair: [usize; 2]) -> Option<[f64; 2]> {

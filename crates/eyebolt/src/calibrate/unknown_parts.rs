@@ -73,7 +73,9 @@ fn beside(observations: &Observations, mask: &Mask, index: usize, at: &Start) ->
     // Clear of the outline, where pixels mix arm and scene.
     let mask = mask.eroded(STRIDE as u32);
     let (width, height) = (mask.width() as usize, mask.height() as usize);
-    let mut cells = Vec::new();
+    let link_from_base: Vec<Transform<Link, Base>> =
+        posture.base_from_link().iter().map(Transform::inverse).collect();
+    let (mut cells, mut last) = (Vec::new(), 0);
     for v in (0..height).step_by(STRIDE) {
         for u in (0..width).step_by(STRIDE) {
             let pixel = v * width + u;
@@ -82,19 +84,20 @@ fn beside(observations: &Observations, mask: &Mask, index: usize, at: &Start) ->
                 continue;
             }
             let point = base_from_camera * observations.rays.point(pixel, z);
-            let Some(nearest) = posture.nearest_within(&observations.arm, &point, REACH_M, 0)
+            let Some(nearest) = posture.nearest_within(&observations.arm, &point, REACH_M, last)
             else {
                 continue;
             };
+            last = nearest.link;
             if nearest.distance_m > Margin::Refined.at_m(z) {
-                cells.push((nearest.link, cell(&posture.base_from_link()[nearest.link], &point)));
+                cells.push((nearest.link, cell(&link_from_base[nearest.link], &point)));
             }
         }
     }
     cells
 }
 
-fn cell(base_from_link: &Transform<Base, Link>, point_in_base: &Point3<f32>) -> [i32; 3] {
-    let in_link: Vector3<f64> = base_from_link.inverse().point(&point_in_base.cast()).coords;
+fn cell(link_from_base: &Transform<Link, Base>, point_in_base: &Point3<f32>) -> [i32; 3] {
+    let in_link: Vector3<f64> = link_from_base.point(&point_in_base.cast()).coords;
     in_link.map(|x| (x / f64::from(CELL_M)).floor() as i32).into()
 }

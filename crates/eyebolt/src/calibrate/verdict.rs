@@ -62,7 +62,7 @@ pub(crate) fn judge(findings: &Findings<'_>, limits: &Limits) -> Verdict {
     }
     reasons.extend(findings.exchanged.clone().map(|joints| Reason::JointsExchanged { joints }));
     reasons.extend(joint_off(findings));
-    reasons.extend(disagreement(findings));
+    reasons.extend(contradicted(findings));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
     if reasons.iter().all(is_few_configurations) {
         reasons.extend(stopped(findings.refinement));
@@ -123,18 +123,15 @@ fn stopped(refinement: &Refinement) -> Option<Reason> {
     })
 }
 
-fn disagreement(findings: &Findings<'_>) -> Vec<Reason> {
+fn contradicted(findings: &Findings<'_>) -> Option<Reason> {
     let views: Vec<Agreement> = findings.outcomes.iter().filter_map(|o| o.agreement).collect();
     let all = total(&views);
     if !all.is_in_view() {
-        return vec![Reason::OutOfView];
+        return Some(Reason::OutOfView);
     }
-    let contradicted = all.contradicted_share();
-    let (percent, limit) = (100.0 * contradicted, 100.0 * CONTRADICTED_SHARE);
-    match contradicted > CONTRADICTED_SHARE {
-        true => vec![Reason::Contradicted { percent, limit }],
-        false => Vec::new(),
-    }
+    let share = all.contradicted_share();
+    let (percent, limit) = (100.0 * share, 100.0 * CONTRADICTED_SHARE);
+    (share > CONTRADICTED_SHARE).then_some(Reason::Contradicted { percent, limit })
 }
 
 fn inaccurate(expected: &Deviation, limits: &Limits) -> Option<Reason> {

@@ -1,8 +1,9 @@
 //! The arm as what moved between configurations, or was not there before.
 
 use super::labeller::Labeller;
+use crate::connected::connected;
 use crate::depth_noise::DepthNoise;
-use crate::evenly::evenly;
+use crate::evenly::evenly_others;
 use crate::observations::{Configuration, Observations};
 use eyebolt_registration::{Label, Labels, Margin};
 use rayon::prelude::*;
@@ -115,8 +116,7 @@ const COMMON_SHARE: f64 = 0.3;
 
 /// Depth of some of the other `configurations`.
 fn others(configurations: &[Configuration], own: usize) -> Vec<&[f32]> {
-    let all: Vec<usize> = (0..configurations.len()).filter(|other| *other != own).collect();
-    let few = evenly(&all, MOST_OTHERS).into_iter();
+    let few = evenly_others(configurations.len(), own, MOST_OTHERS).into_iter();
     few.map(|other| configurations[other].depth.depth_m()).collect()
 }
 
@@ -145,20 +145,13 @@ fn grown(motion: &[Shown], depth: &[f32], width: usize) -> Vec<bool> {
         if motion[seed] != Shown::Moved || seen[seed] {
             continue;
         }
-        patch.clear();
-        patch.push(seed);
         seen[seed] = true;
-        let mut next = 0;
-        while let Some(&at) = patch.get(next) {
-            next += 1;
-            for other in neighbours(at, width, motion.len()).into_iter().flatten() {
-                let near = (depth[other] - depth[at]).abs() < CONTINUOUS_M * depth[at].max(1.0);
-                if !seen[other] && motion[other] != Shown::Still && near {
-                    seen[other] = true;
-                    patch.push(other);
-                }
-            }
-        }
+        connected(seed, width, motion.len(), &mut patch, |at, other| {
+            let near = (depth[other] - depth[at]).abs() < CONTINUOUS_M * depth[at].max(1.0);
+            let joins = !seen[other] && motion[other] != Shown::Still && near;
+            seen[other] |= joins;
+            joins
+        });
         if patch.len() >= least {
             for at in &patch {
                 set[*at] = true;
@@ -166,16 +159,6 @@ fn grown(motion: &[Shown], depth: &[f32], width: usize) -> Vec<bool> {
         }
     }
     set
-}
-
-fn neighbours(at: usize, width: usize, count: usize) -> [Option<usize>; 4] {
-    let column = at % width;
-    [
-        (column > 0).then(|| at - 1),
-        (column + 1 < width).then(|| at + 1),
-        at.checked_sub(width),
-        (at + width < count).then(|| at + width),
-    ]
 }
 
 #[cfg(test)]

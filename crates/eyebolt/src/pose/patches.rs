@@ -1,5 +1,6 @@
 //! Connected patches of pixels: the arm may be one of several things that moved.
 
+use crate::connected::connected;
 use crate::observations::{Configuration, Observations};
 use eyebolt_geometry::Mask;
 use nalgebra::{Point3, Vector3};
@@ -27,24 +28,12 @@ pub(super) fn middles(
         if !std::mem::take(&mut open[seed]) {
             continue;
         }
-        patch.clear();
-        patch.push(seed);
-        let (mut next, mut sum) = (0, Vector3::zeros());
-        while let Some(&at) = patch.get(next) {
-            next += 1;
-            sum += observations.rays.point(at, depth[at]).coords.cast::<f64>();
-            let sides = [at.checked_sub(1), Some(at + 1), at.checked_sub(width), Some(at + width)];
-            for other in sides.into_iter().flatten() {
-                if !open.get(other).is_some_and(|open| *open) {
-                    continue;
-                }
-                let near = (depth[other] - depth[at]).abs() < CONTINUOUS_M * depth[at].max(1.0);
-                if near && is_beside(at, other, width) {
-                    open[other] = false;
-                    patch.push(other);
-                }
-            }
-        }
+        connected(seed, width, depth.len(), &mut patch, |at, other| {
+            let near = (depth[other] - depth[at]).abs() < CONTINUOUS_M * depth[at].max(1.0);
+            near && std::mem::take(&mut open[other])
+        });
+        let point = |at: &usize| observations.rays.point(*at, depth[*at]).coords.cast::<f64>();
+        let sum: Vector3<f64> = patch.iter().map(point).sum();
         patches.push((patch.len(), sum));
     }
     let all: usize = patches.iter().map(|(count, _)| count).sum();
@@ -57,12 +46,6 @@ pub(super) fn middles(
     let several = patches.len() > 1;
     let each = patches.into_iter().filter(|_| several);
     std::iter::once((all, total)).filter(|(all, _)| *all > 0).chain(each).map(mean).collect()
-}
-
-/// Whether neighbouring indices are neighbours in the image, and not the end of one row and the
-/// beginning of the next.
-fn is_beside(a: usize, b: usize, width: usize) -> bool {
-    a / width == b / width || a % width == b % width
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! How large an error may be, by its covariance.
 
 use super::chi_square;
-use crate::calibrate::{Deviation, ErrorEstimate};
+use crate::calibrate::{Deviation, ErrorEstimate, covariance_at};
 use eyebolt_geometry::{Base, Camera, Transform};
-use nalgebra::{Matrix3, Point3, SMatrix};
+use nalgebra::{Matrix3, Point3};
 
 /// Probabilities whose quantiles are held against errors.
 pub const LEVELS: [f64; 3] = [0.50, 0.90, 0.95];
@@ -30,12 +30,7 @@ pub(super) fn quantiles(
     camera_from_base: &Transform<Camera, Base>,
     at_in_base: &Point3<f64>,
 ) -> [Deviation; 3] {
-    // A point of the base moves by the translation and by the rotation about the base's origin.
-    let lever = camera_from_base.direction(&at_in_base.coords);
-    let mut by_pose = SMatrix::<f64, 3, 6>::zeros();
-    by_pose.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity());
-    by_pose.fixed_view_mut::<3, 3>(0, 3).copy_from(&-lever.cross_matrix());
-    let translation = by_pose * error.covariance * by_pose.transpose();
+    let translation = covariance_at(&error.covariance, camera_from_base, at_in_base);
     let rotation = error.covariance.fixed_view::<3, 3>(3, 3).into_owned();
     LEVELS.map(|level| Deviation {
         translation_m: quantile(&translation, level),
