@@ -54,7 +54,7 @@ mod numbers;
 mod tensors;
 mod written;
 
-pub use complete::{from_bytes, from_minkowski, to_bytes};
+pub use complete::{from_bytes, from_minkowski, to_bytes, to_half_bytes};
 pub(crate) use entry::Entry;
 pub use layout::Layout;
 pub use matching::{Matching, OtherShape, load_matching};

@@ -20,5 +20,7 @@ pub mod record;
 pub mod refine;
 pub mod report;
 pub mod robots;
+pub mod segment;
 pub mod simulate;
 pub mod study;
+pub mod train;

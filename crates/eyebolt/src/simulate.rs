@@ -35,6 +35,7 @@ pub use lab::{Lab, SecondArm};
 pub use plan::{Plan, plan};
 pub use rejected::Rejected;
 pub use scenario::Scenario;
+pub(crate) use scene::{clutter, room_of_any_size};
 pub use solids::Solid;
 pub use true_view::TrueView;
 pub use viewpoint::{PRESETS, Preset, Ranges, Viewpoint};

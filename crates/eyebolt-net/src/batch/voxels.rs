@@ -24,6 +24,29 @@ impl Batch {
         Self::from_neighbours(graph, &mut Neighbours::new(finest), means, voxel_of_point)
     }
 
+    /// For a [flat](crate::coordinates::Kernel::flat) graph, on images: of each item the pixels `[u, v]`
+    /// that saw something, and their features, one row each, item after item.
+    ///
+    /// # Errors
+    /// As [`Batch::from_voxels`]; or if there are too many items, or a pixel is beyond 19 bits.
+    pub fn from_images(
+        graph: &Graph,
+        pixels: &[&[[u32; 2]]],
+        features: &Matrix,
+    ) -> Result<Self, Error> {
+        let mut coordinates = Vec::new();
+        for (item, pixels) in pixels.iter().enumerate() {
+            let many = |_| Error::input("images", format!("{} are too many", item + 1));
+            let item = i32::from(u16::try_from(item).map_err(many)?);
+            let far = |_| Error::input("images", "a pixel beyond 31 bits");
+            for [u, v] in *pixels {
+                let [u, v] = [i32::try_from(*u).map_err(far)?, i32::try_from(*v).map_err(far)?];
+                coordinates.push([item, u, v, 0]);
+            }
+        }
+        Self::from_voxels(graph, &coordinates, features)
+    }
+
     /// The same from voxels and maps that are there already: `features` of the finest voxels, one
     /// row each, and the voxel of every point, as [`VoxelSet::new`] gives them.
     ///

@@ -15,26 +15,36 @@ pub struct Kernel {
     pub size: u32,
     /// Voxels from one offset to the next; 1 is dense.
     pub dilation: u32,
+    /// Within the plane of x and y only: a convolution of images, whose pixels are voxels with z = 0.
+    pub flat: bool,
 }
 
 impl Kernel {
     /// A dense kernel.
     pub fn new(size: u32) -> Self {
-        Self { size, dilation: 1 }
+        Self { size, dilation: 1, flat: false }
+    }
+
+    /// A dense kernel in the plane of x and y, for images.
+    pub fn flat(size: u32) -> Self {
+        Self { size, dilation: 1, flat: true }
     }
 
     /// Number of offsets.
     pub fn volume(self) -> usize {
-        (self.size as usize).pow(3)
+        (self.size as usize).pow(if self.flat { 2 } else { 3 })
     }
 
     /// In order of the weights, z fastest: around the voxel where `size` is odd, from the voxel on
-    /// where it is even.
+    /// where it is even; only those with z = 0 of a flat one.
     pub fn offsets(self) -> Vec<[i32; 3]> {
         let (size, dilation) = (self.size as i32, self.dilation as i32);
         let first = if size % 2 == 1 { -(size / 2) } else { 0 };
         let steps = move || (first..first + size).map(move |step| step * dilation);
-        steps().flat_map(|x| steps().flat_map(move |y| steps().map(move |z| [x, y, z]))).collect()
+        let deep = if self.flat { 0..1 } else { first..first + size };
+        let heights: Vec<i32> = deep.map(|step| step * dilation).collect();
+        let columns = steps().flat_map(|x| steps().map(move |y| [x, y]));
+        columns.flat_map(|[x, y]| heights.iter().map(move |&z| [x, y, z])).collect()
     }
 
     /// Voxels that it reaches from the one it stands on.
@@ -87,12 +97,17 @@ impl KernelSpec {
         Self { kernel: Kernel::new(size), from, to }
     }
 
+    /// The same with a [flat](Kernel::flat) kernel.
+    pub fn in_plane(self) -> Self {
+        Self { kernel: Kernel { flat: true, ..self.kernel }, ..self }
+    }
+
     /// That there can be such a convolution.
     ///
     /// # Errors
     /// If the kernel is empty or too wide, or the coarser stride not a multiple of the finer.
     pub fn check(self) -> Result<(), Error> {
-        let Kernel { size, dilation } = self.kernel;
+        let Kernel { size, dilation, .. } = self.kernel;
         let bad = |problem: String| {
             let place = format!("kernel {size}, stride {} to {}", self.from, self.to);
             Err(Error::network(place, problem))

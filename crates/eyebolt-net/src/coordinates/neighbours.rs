@@ -89,7 +89,7 @@ impl Neighbours {
         }
         let parents = self.parents.get(&(spec.from, spec.to));
         if let Some(parents) = parents.filter(|_| strided::fits(spec.kernel, factor)) {
-            return Ok(strided::build(&fine, &coarse, parents, factor));
+            return Ok(strided::build(&fine, &coarse, parents, spec.kernel));
         }
         Ok(generic::build(&fine, &coarse, spec.kernel, factor))
     }

@@ -11,8 +11,8 @@ pub fn fits(kernel: Kernel, factor: u32) -> bool {
 }
 
 /// The map from `fine` voxels to their `coarse` ones, `parents`.
-pub fn build(fine: &VoxelSet, coarse: &VoxelSet, parents: &[u32], factor: u32) -> KernelMap {
-    let volume = Kernel::new(factor).volume();
+pub fn build(fine: &VoxelSet, coarse: &VoxelSet, parents: &[u32], kernel: Kernel) -> KernelMap {
+    let (factor, volume) = (kernel.size, kernel.volume());
     let count = coarse.len().div_ceil(BLOCK_ROWS);
     let mut lists = vec![vec![(Vec::new(), Vec::new()); volume]; count];
     for (row, &parent) in parents.iter().enumerate() {
@@ -20,7 +20,11 @@ pub fn build(fine: &VoxelSet, coarse: &VoxelSet, parents: &[u32], factor: u32) -
             let cell = i64::from(value) - i64::from(fine.origin());
             cell.rem_euclid(factor.into()) as usize
         });
-        let offset = (x * factor as usize + y) * factor as usize + z;
+        if kernel.flat && z > 0 {
+            continue;
+        }
+        let column = x * factor as usize + y;
+        let offset = if kernel.flat { column } else { column * factor as usize + z };
         let (inputs, outputs) = &mut lists[parent as usize / BLOCK_ROWS][offset];
         inputs.push(row as u32);
         outputs.push((parent as usize % BLOCK_ROWS) as u16);

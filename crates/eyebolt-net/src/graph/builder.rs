@@ -51,6 +51,7 @@ use crate::coordinates::KernelSpec;
 #[derive(Debug, Default)]
 pub struct GraphBuilder {
     pub(super) graph: Graph,
+    flat: bool,
 }
 
 impl GraphBuilder {
@@ -61,7 +62,13 @@ impl GraphBuilder {
 
     /// Of a network that samples points as these levels say.
     pub fn with_sampling(levels: Vec<SampleLevel>) -> Self {
-        Self { graph: Graph { sampling: levels, ..Graph::default() } }
+        Self { graph: Graph { sampling: levels, ..Graph::default() }, flat: false }
+    }
+
+    /// Of a network on images: every kernel is [flat](crate::coordinates::Kernel::flat), and pixels are
+    /// voxels with z = 0.
+    pub fn in_plane() -> Self {
+        Self { flat: true, ..Self::default() }
     }
 
     /// Values from outside.
@@ -87,6 +94,7 @@ impl GraphBuilder {
         channels: usize,
         bias: bool,
     ) -> Result<NodeId, Error> {
+        let spec = if self.flat { spec.in_plane() } else { spec };
         spec.check()?;
         self.expect_domain(name, input, Domain::Voxels { stride: spec.from })?;
         let domain = self.domain(Domain::Voxels { stride: spec.to });

@@ -53,7 +53,7 @@ pub fn cross_entropy(
     Ok(Loss { value, gradient })
 }
 
-fn check_labels(logits: &Matrix, labels: &[u32], ignore: u32) -> Result<(), Error> {
+pub(super) fn check_labels(logits: &Matrix, labels: &[u32], ignore: u32) -> Result<(), Error> {
     if labels.len() != logits.rows() {
         let problem = format!("{} for {} rows of logits", labels.len(), logits.rows());
         return Err(Error::input("labels", problem));

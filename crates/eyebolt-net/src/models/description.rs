@@ -21,6 +21,15 @@ pub enum Architecture {
 }
 
 impl Architecture {
+    /// Whether it is on images.
+    pub fn is_flat(&self) -> bool {
+        match self {
+            Self::Minkunet(net) => net.flat,
+            Self::MinkunetRegression(net) => net.flat,
+            Self::Pointnet2(_) => false,
+        }
+    }
+
     /// Its graph.
     ///
     /// # Errors
@@ -40,6 +49,9 @@ impl Architecture {
 pub struct ModelDescription {
     /// Edge of a voxel; of networks on voxels, and of no others.
     pub voxel_m: Option<f32>,
+    /// Columns that images are thinned to; of [flat](crate::coordinates::Kernel::flat) networks, and of
+    /// no others.
+    pub image_columns: Option<u32>,
     /// Names of the features, one for each input channel.
     pub features: Vec<String>,
     /// Names of the classes or other outputs, one for each output channel.
@@ -86,7 +98,7 @@ impl ModelDescription {
     ///
     /// # Errors
     /// If the architecture makes no network, there is not one name for each channel in and out, or
-    /// `voxel_m` is missing of a network on voxels or there for one on points.
+    /// `voxel_m` or `image_columns` is missing of a network on voxels or images, or there for another.
     pub fn graph(&self) -> Result<Graph, Error> {
         let graph = self.architecture.graph()?;
         let features = graph.inputs().filter(|(.., source)| *source == Source::Features);
@@ -94,14 +106,29 @@ impl ModelDescription {
         check_names("features", self.features.len(), inputs)?;
         let outputs = graph.outputs().iter().map(|id| graph.nodes()[id.index()].channels).sum();
         check_names("classes", self.classes.len(), outputs)?;
-        let on_voxels = graph.domains().iter().any(|it| matches!(it, Domain::Voxels { .. }));
+        let flat = self.architecture.is_flat();
+        let on_cells = graph.domains().iter().any(|it| matches!(it, Domain::Voxels { .. }));
+        let on_voxels = on_cells && !flat;
+        match self.image_columns {
+            None | Some(0) if flat => {
+                let problem = "missing; say how many columns images are thinned to";
+                return Err(Error::file(FILE, "image_columns", problem));
+            }
+            Some(_) if !flat => {
+                let problem = "the network is not on images; leave it out";
+                return Err(Error::file(FILE, "image_columns", problem));
+            }
+            _ => {}
+        }
         match self.voxel_m {
             None if on_voxels => {
                 Err(Error::file(FILE, "voxel_m", "missing; say how large voxels are"))
             }
-            Some(_) if !on_voxels => {
-                Err(Error::file(FILE, "voxel_m", "the network is on points; leave it out"))
-            }
+            Some(_) if !on_voxels => Err(Error::file(
+                FILE,
+                "voxel_m",
+                "the network is on points or images; leave it out",
+            )),
             _ => Ok(graph),
         }
     }

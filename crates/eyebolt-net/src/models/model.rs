@@ -46,13 +46,25 @@ impl Model {
     /// If they could not be loaded: the description contradicts itself or is another graph's, or a
     /// weight is not finite.
     pub fn save(&self) -> Result<(String, Vec<u8>), Error> {
+        Ok((self.text()?, weights::to_bytes(&self.graph, &self.parameters)?))
+    }
+
+    /// As [`Model::save`], with weights of 16 bits, which are half as large.
+    ///
+    /// # Errors
+    /// As [`Model::save`]; or if a weight is beyond 65 504.
+    pub fn save_half(&self) -> Result<(String, Vec<u8>), Error> {
+        Ok((self.text()?, weights::to_half_bytes(&self.graph, &self.parameters)?))
+    }
+
+    fn text(&self) -> Result<String, Error> {
         if self.description.graph()? != self.graph {
             return Err(Error::file(FILE, "architecture", "describes another graph"));
         }
         let text = self.description.to_toml()?;
         // What is written is what is read: `voxel_m`, for one, is checked by reading.
         ModelDescription::from_toml(&text)?;
-        Ok((text, weights::to_bytes(&self.graph, &self.parameters)?))
+        Ok(text)
     }
 
     /// The batch of some clouds, an item each: their points, and one row of features for every

@@ -1,8 +1,10 @@
 //! Files that hold every parameter of a graph.
 
 use super::layout::{FILE, Layout};
-use super::written::{entries, serialise};
+use super::numbers;
+use super::written::{entries, serialise, serialise_as};
 use crate::{Error, Graph, Parameters};
+use safetensors::Dtype;
 
 /// The parameters as safetensors of 32 bits.
 ///
@@ -10,6 +12,25 @@ use crate::{Error, Graph, Parameters};
 /// If the graph is another one, or a value is not finite: what is written can be read.
 pub fn to_bytes(graph: &Graph, parameters: &Parameters) -> Result<Vec<u8>, Error> {
     serialise(FILE, entries(FILE, graph, "", parameters.values())?, &[])
+}
+
+/// The parameters as safetensors of 16 bits (float16), for models that are handed on: half as large, and
+/// as good but for the last of three decimals.
+///
+/// # Errors
+/// As [`to_bytes`]; or if a value is beyond 65 504.
+pub fn to_half_bytes(graph: &Graph, parameters: &Parameters) -> Result<Vec<u8>, Error> {
+    if !graph.has_parameters(parameters.values()) {
+        return Err(Error::input("parameters", "made for another network"));
+    }
+    let entry = |(spec, values): (&crate::graph::ParameterSpec, &Vec<f32>)| {
+        let bytes = numbers::encode_half(values);
+        let kept = numbers::decode(Dtype::F16, &bytes).unwrap_or_default();
+        numbers::check_finite(FILE, &spec.name, &kept)?;
+        Ok((spec.name.clone(), spec.shape.clone(), bytes))
+    };
+    let stored = graph.parameters().iter().zip(parameters.values()).map(entry);
+    serialise_as(Dtype::F16, FILE, stored.collect::<Result<_, Error>>()?, &[])
 }
 
 /// The parameters of a graph from safetensors of 16 (float16 or bfloat16) or 32 bits.

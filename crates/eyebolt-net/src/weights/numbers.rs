@@ -20,6 +20,11 @@ pub fn encode(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
+/// Numbers of 32 bits as those of 16 that are nearest; beyond 65 504 they are infinite.
+pub fn encode_half(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|value| f16::from_f32(*value).to_le_bytes()).collect()
+}
+
 /// That no value of a tensor is NaN or infinite.
 pub fn check_finite(file: &str, name: &str, values: &[f32]) -> Result<(), Error> {
     match values.iter().position(|value| !value.is_finite()) {

@@ -35,10 +35,20 @@ pub(crate) fn serialise(
     entries: Vec<Stored>,
     metadata: &[(&str, String)],
 ) -> Result<Vec<u8>, Error> {
+    serialise_as(Dtype::F32, file, entries, metadata)
+}
+
+/// As [`serialise`], of numbers of another type.
+pub(crate) fn serialise_as(
+    dtype: Dtype,
+    file: &str,
+    entries: Vec<Stored>,
+    metadata: &[(&str, String)],
+) -> Result<Vec<u8>, Error> {
     let failed = |error: safetensors::SafeTensorError| Error::file(file, "", error.to_string());
     let mut views = Vec::new();
     for (name, shape, bytes) in &entries {
-        let view = TensorView::new(Dtype::F32, shape.clone(), bytes).map_err(failed)?;
+        let view = TensorView::new(dtype, shape.clone(), bytes).map_err(failed)?;
         views.push((name.as_str(), view));
     }
     let metadata: HashMap<String, String> =

@@ -86,7 +86,7 @@ proptest! {
     ) {
         let (finest, _) = VoxelSet::new(&cells).unwrap();
         let mut neighbours = Neighbours::new(finest);
-        let spec = KernelSpec { kernel: Kernel { size, dilation }, from, to };
+        let spec = KernelSpec { kernel: Kernel { size, dilation, flat: false }, from, to };
         // What is there already may be built upon.
         if dilation == 1 && size == 3 {
             neighbours.map(KernelSpec { kernel: Kernel::new(5), ..spec }).unwrap();
@@ -152,7 +152,7 @@ fn maps_of_many_blocks() {
     ] {
         let (finest, _) = VoxelSet::new(&cells).unwrap();
         let mut neighbours = Neighbours::new(finest);
-        let spec = KernelSpec { kernel: Kernel { size, dilation }, from, to };
+        let spec = KernelSpec { kernel: Kernel { size, dilation, flat: false }, from, to };
         let map = neighbours.map(spec).unwrap();
         let (a, b) = (neighbours.voxels(from).unwrap(), neighbours.voxels(to).unwrap());
         assert!(map.blocks().len() > 2, "{spec:?} is of one block or two");
@@ -201,8 +201,11 @@ fn what_cannot_be_placed_is_refused() {
 fn kernels_that_are_none_are_refused() {
     let (finest, _) = VoxelSet::new(&[[0, 0, 0, 0]]).unwrap();
     let mut neighbours = Neighbours::new(finest);
-    let spec =
-        |size, dilation, from, to| KernelSpec { kernel: Kernel { size, dilation }, from, to };
+    let spec = |size, dilation, from, to| KernelSpec {
+        kernel: Kernel { size, dilation, flat: false },
+        from,
+        to,
+    };
     for bad in
         [spec(0, 1, 1, 1), spec(99, 1, 1, 1), spec(3, 0, 1, 1), spec(3, 1, 0, 2), spec(3, 1, 2, 3)]
     {

@@ -70,6 +70,7 @@ fn a_network_of_basic_blocks() {
             channels: [3, 2, 3, 2, 3, 2, 3, 2],
             stem_channels: 3,
             stem_kernel: 5,
+            flat: false,
             inputs: 3,
             outputs: 4,
             head: Head::Convolution,
@@ -87,6 +88,7 @@ fn a_network_of_bottlenecks() {
             channels: [2, 2, 2, 2, 2, 2, 2, 3],
             stem_channels: 3,
             stem_kernel: 3,
+            flat: false,
             inputs: 3,
             outputs: 4,
             head: Head::Convolution,
@@ -114,7 +116,7 @@ fn single_operations() {
     let x = g.input(Source::Features, Domain::Voxels { stride: 1 }, 3);
     let mut outputs: Vec<Output> = Vec::new();
     let mut add = |g: &mut GraphBuilder, x, (name, size, dilation, from, to, channels, bias)| {
-        let spec = KernelSpec { kernel: Kernel { size, dilation }, from, to };
+        let spec = KernelSpec { kernel: Kernel { size, dilation, flat: false }, from, to };
         let node = g.convolution(name, x, spec, channels, bias).unwrap();
         outputs.push((name, Some(to), node));
         node

@@ -9,6 +9,7 @@ use eyebolt_net::{Batch, Cpu, Executor, Matrix, Parameters, Sampling};
 fn description(architecture: Architecture, features: usize, outputs: usize) -> ModelDescription {
     ModelDescription {
         voxel_m: (!matches!(architecture, Architecture::Pointnet2(_))).then_some(0.005),
+        image_columns: None,
         features: (0..features).map(|index| format!("feature {index}")).collect(),
         classes: (0..outputs).map(|index| format!("class {index}")).collect(),
         frame: "camera".into(),
@@ -65,7 +66,7 @@ fn points_have_no_voxels() {
     let mut description = description(Architecture::Pointnet2(PointNet2::single_scale(3, 6)), 3, 6);
     description.voxel_m = Some(0.01);
     let error = description.graph().unwrap_err().to_string();
-    assert!(error.contains("voxel_m: the network is on points"), "{error}");
+    assert!(error.contains("voxel_m: the network is on points or images"), "{error}");
 }
 
 #[test]

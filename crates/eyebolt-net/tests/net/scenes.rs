@@ -45,7 +45,7 @@ pub fn parameters(graph: &Graph, seed: u64) -> Parameters {
 
 /// A kernel within one resolution.
 pub fn within(size: u32, dilation: u32, stride: u32) -> KernelSpec {
-    KernelSpec::within(Kernel { size, dilation }, stride)
+    KernelSpec::within(Kernel { size, dilation, flat: false }, stride)
 }
 
 /// Every operation on voxels once, with branches that join and values used twice.

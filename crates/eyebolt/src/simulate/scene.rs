@@ -57,6 +57,12 @@ pub fn room(random: &mut Random, eye: &Point3<f64>, size: RoomSize) -> Vec<Solid
     solids
 }
 
+/// A room or a hall, as `random` decides.
+pub fn room_of_any_size(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
+    let size = if random.uniform() < 0.5 { ROOM } else { HALL };
+    room(random, eye, size)
+}
+
 /// Something to stand about on the table or beside it, wherever `random` puts it.
 pub fn clutter(random: &mut Random) -> Solid {
     match random.index(10) {

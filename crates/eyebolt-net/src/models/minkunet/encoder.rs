@@ -35,6 +35,10 @@ pub struct MinkEncoder {
     pub stem_channels: usize,
     /// Its size: 1, 3, 5 or 7.
     pub stem_kernel: u32,
+    /// Whether it is on images: all kernels lie in the plane of x and y, and pixels are voxels with
+    /// z = 0. Pixels that saw nothing are not there, as empty voxels are not.
+    #[serde(default)]
+    pub flat: bool,
     /// Features of a voxel.
     pub inputs: usize,
     /// Channels of the linear layers, of which the last are the outputs.
@@ -49,7 +53,7 @@ impl MinkEncoder {
     /// If the description makes no network.
     pub fn graph(&self) -> Result<Graph, Error> {
         checks::widths("widths", &self.widths)?;
-        let mut g = GraphBuilder::new();
+        let mut g = self.builder();
         let [.., encoded] = self.values(&mut g)?;
         let mut x = g.global_average_pool("mean", encoded)?;
         for (index, &width) in self.widths.iter().enumerate() {
@@ -59,6 +63,10 @@ impl MinkEncoder {
             x = g.linear(&format!("regression.{index}"), x, width, true);
         }
         g.finish(&[x])
+    }
+
+    pub(super) fn builder(&self) -> GraphBuilder {
+        if self.flat { GraphBuilder::in_plane() } else { GraphBuilder::new() }
     }
 
     /// Values of strides 1, 2, 4, 8 and 16.

@@ -37,6 +37,7 @@ impl MinkUNet {
             channels: [DOWN[0], DOWN[1], DOWN[2], DOWN[3], up[0], up[1], up[2], up[3]],
             stem_channels: STEM,
             stem_kernel: 5,
+            flat: false,
             inputs,
             outputs,
             head: Head::Convolution,
@@ -61,6 +62,7 @@ impl MinkEncoder {
             channels: DOWN,
             stem_channels: STEM,
             stem_kernel: 5,
+            flat: false,
             inputs,
             widths: widths.to_vec(),
         })

@@ -37,6 +37,10 @@ pub struct MinkUNet {
     pub stem_channels: usize,
     /// Its size: 5 as MinkowskiEngine has it, 3 in the code of Sefercik and Akgun.
     pub stem_kernel: u32,
+    /// Whether it is on images: all kernels lie in the plane of x and y, and pixels are voxels with
+    /// z = 0. Pixels that saw nothing are not there, as empty voxels are not.
+    #[serde(default)]
+    pub flat: bool,
     /// Features of a voxel.
     #[doc(alias = "in_channels")]
     pub inputs: usize,
@@ -56,7 +60,7 @@ impl MinkUNet {
     /// # Errors
     /// If the description makes no network.
     pub fn graph(&self) -> Result<Graph, Error> {
-        let mut g = GraphBuilder::new();
+        let mut g = self.encoder().builder();
         let logits = self.voxel_logits(&mut g)?;
         let points = g.slice("slice", logits)?;
         g.finish(&[points])
@@ -72,7 +76,7 @@ impl MinkUNet {
     /// # Errors
     /// If the description makes no network.
     pub fn voxel_graph(&self) -> Result<Graph, Error> {
-        let mut g = GraphBuilder::new();
+        let mut g = self.encoder().builder();
         let logits = self.voxel_logits(&mut g)?;
         g.finish(&[logits])
     }
@@ -102,6 +106,7 @@ impl MinkUNet {
             channels,
             stem_channels: self.stem_channels,
             stem_kernel: self.stem_kernel,
+            flat: self.flat,
             inputs: self.inputs,
             widths: vec![],
         }

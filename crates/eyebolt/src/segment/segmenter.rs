@@ -1,0 +1,135 @@
+//! From a depth image to labels of its pixels.
+
+use super::cluster::keep_largest_cluster;
+use super::features::{FEATURES, features};
+use super::thinned::Thinned;
+use super::upsample::upsample;
+use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_net::models::{Architecture, Model};
+use eyebolt_net::{Batch, Cpu, Executor, Matrix};
+
+/// Nothing, or something that is not the arm.
+pub const BACKGROUND: u8 = 0;
+/// The arm; without its end-effector, if the network tells that apart.
+pub const ARM: u8 = 1;
+/// The end-effector and every link below it.
+pub const END_EFFECTOR: u8 = 2;
+/// No depth, so nothing is known.
+pub const UNKNOWN: u8 = 255;
+
+/// Why nothing is segmented.
+#[derive(Debug, thiserror::Error)]
+pub enum SegmentError {
+    /// Of the network: broken files, too large an image.
+    #[error(transparent)]
+    Net(#[from] eyebolt_net::Error),
+    /// The network is for something else.
+    #[error(
+        "model.toml: {field}: {problem}. Name the folder of a segmentation that eyebolt train made"
+    )]
+    OtherModel {
+        /// The field.
+        field: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Image and camera are of different sizes.
+    #[error("the depth image has {found:?} pixels, its camera {camera:?}")]
+    Size {
+        /// Width and height of the image.
+        found: (u32, u32),
+        /// Those of the camera.
+        camera: (u32, u32),
+    },
+}
+
+/// A network that tells the arm from the rest.
+#[derive(Debug)]
+pub struct Segmenter {
+    model: Model,
+    executor: Cpu,
+    columns: usize,
+}
+
+/// Labels of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segmentation {
+    /// Pixels in a row.
+    pub width: usize,
+    /// Number of rows.
+    pub height: usize,
+    /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`UNKNOWN`].
+    pub label: Vec<u8>,
+}
+
+impl Segmenter {
+    /// From the text of a `model.toml` and the bytes of its weights.
+    ///
+    /// # Errors
+    ///
+    /// Broken files, or a model of something else.
+    pub fn load(description: &str, weights: &[u8]) -> Result<Self, SegmentError> {
+        Self::new(Model::load(description, weights)?)
+    }
+
+    /// Of a model that is there already.
+    ///
+    /// # Errors
+    ///
+    /// It is a model of something else.
+    pub fn new(model: Model) -> Result<Self, SegmentError> {
+        let about = &model.description;
+        let other = |field, problem: String| Err(SegmentError::OtherModel { field, problem });
+        let Some(columns) = about.image_columns else {
+            return other("image_columns", "the model is not on images".into());
+        };
+        if about.features != FEATURES {
+            return other("features", format!("{:?} are not {FEATURES:?}", about.features));
+        }
+        let names: Vec<&str> = about.classes.iter().map(String::as_str).collect();
+        let right = matches!(about.architecture, Architecture::Minkunet(_))
+            && matches!(names[..], ["background", "arm"] | ["background", "arm", "end_effector"]);
+        if !right {
+            return other("classes", format!("{names:?} are not background, arm and end_effector"));
+        }
+        Ok(Self { model, executor: Cpu::new(), columns: columns as usize })
+    }
+
+    /// Whether the end-effector is told apart.
+    pub fn tells_end_effector(&self) -> bool {
+        self.model.description.classes.len() > 2
+    }
+
+    /// Labels of the pixels of `depth`, which `camera` saw.
+    ///
+    /// # Errors
+    ///
+    /// Image and camera of different sizes; no memory.
+    pub fn segment(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+    ) -> Result<Segmentation, SegmentError> {
+        let (found, size) = ((depth.width(), depth.height()), (camera.width(), camera.height()));
+        if found != size {
+            return Err(SegmentError::Size { found, camera: size });
+        }
+        let (width, height) = (depth.width() as usize, depth.height() as usize);
+        let image = Thinned::new(depth, camera, self.columns);
+        let rows: Vec<usize> = image.seen().collect();
+        if rows.is_empty() {
+            return Ok(Segmentation { width, height, label: vec![UNKNOWN; width * height] });
+        }
+        let pixel = |at: &usize| [(at % image.width) as u32, (at / image.width) as u32];
+        let pixels: Vec<[u32; 2]> = rows.iter().map(pixel).collect();
+        let features = Matrix::new(rows.len(), FEATURES.len(), features(&image))?;
+        let batch = Batch::from_images(&self.model.graph, &[&pixels], &features)?;
+        let Model { graph, parameters, .. } = &self.model;
+        let outputs = self.executor.infer(graph, parameters, &batch)?;
+        let mut label = upsample(depth, &image, &rows, &outputs[0]);
+        if self.tells_end_effector() {
+            keep_largest_cluster(&mut label, depth, camera, END_EFFECTOR, ARM);
+        }
+        Ok(Segmentation { width, height, label })
+    }
+}

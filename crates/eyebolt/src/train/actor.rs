@@ -1,0 +1,144 @@
+//! An arm to be drawn in many postures.
+
+use super::error::TrainError;
+use crate::record;
+use eyebolt_geometry::{Base, Camera, EndEffector, Link, PinholeCamera, Transform};
+use eyebolt_registration::LinkCache;
+use eyebolt_render::{PosedMesh, Random, Raster};
+use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
+use nalgebra::Point3;
+
+/// An arm with the shapes of its links, few triangles each.
+pub struct Actor {
+    /// Its kinematics.
+    pub arm: Arm,
+    /// Of each shape, the link of the robot that it is.
+    pub links: Vec<usize>,
+    /// Of each shape, its surface in the frame of its link, metres.
+    pub meshes: Vec<TriangleMesh>,
+    /// Whether each shape belongs to the end-effector.
+    pub is_end_effector: Vec<bool>,
+    /// From the base to the farthest part of the stretched arm, about, metres.
+    pub reach_m: f64,
+}
+
+/// Where an arm is.
+pub struct Pose {
+    /// Its joints.
+    pub joints: JointPositions,
+    /// Of each shape.
+    pub base_from_link: Vec<Transform<Base, Link>>,
+    /// Of the end-effector.
+    pub base_from_end_effector: Transform<Base, EndEffector>,
+}
+
+impl Actor {
+    /// `arm` with its shapes as `cache` keeps them, simplified.
+    ///
+    /// # Errors
+    ///
+    /// Shapes that cannot be read.
+    pub fn new(arm: Arm, cache: &LinkCache) -> Result<Self, TrainError> {
+        let below = (0..arm.robot().links.len()).filter(|link| arm.is_below_base(*link));
+        let (links, model) = record::shapes(&arm, below.collect(), cache)?;
+        let meshes = model.links().iter().map(|link| link.model.mesh.clone()).collect();
+        Ok(Self::of(arm, links, meshes))
+    }
+
+    /// `arm` of plain shapes only, as they are.
+    ///
+    /// # Errors
+    ///
+    /// Shapes that cannot be read.
+    pub fn of_plain_shapes(arm: Arm) -> Result<Self, TrainError> {
+        let (mut links, mut meshes) = (Vec::new(), Vec::new());
+        for (index, link) in arm.robot().links.iter().enumerate() {
+            let failed = |source| record::RecordError::Mesh { link: link.name.clone(), source };
+            if let Some(mesh) = link_mesh(link, Prefer::Visual).map_err(failed)? {
+                links.push(index);
+                meshes.push(mesh);
+            }
+        }
+        Ok(Self::of(arm, links, meshes))
+    }
+
+    fn of(arm: Arm, links: Vec<usize>, meshes: Vec<TriangleMesh>) -> Self {
+        let end_effector = arm.end_effector_links();
+        let is_end_effector = links.iter().map(|link| end_effector.contains(link)).collect();
+        let mut actor = Self { arm, links, meshes, is_end_effector, reach_m: 0.0 };
+        let random = Random::new(0);
+        // How far it gets in a few dozen postures.
+        let far = (0..40).filter_map(|place| {
+            let pose = actor.pose(actor.any_joints(&mut random.at(place)))?;
+            Some(pose.base_from_end_effector.translation_m().norm())
+        });
+        actor.reach_m = far.fold(0.2, f64::max);
+        actor
+    }
+
+    /// Joint positions anywhere within their limits, fingers included.
+    pub fn any_joints(&self, random: &mut Random) -> JointPositions {
+        let robot = self.arm.robot();
+        let names = [self.arm.required_joints(), self.arm.other_joints()].concat();
+        let drawn = names.into_iter().map(|name| {
+            let limits = robot.joint_index(name).and_then(|index| robot.joints[index].limits);
+            let (low, high) = limits.map_or((-3.1, 3.1), |limits| (limits.lower, limits.upper));
+            (name.to_owned(), random.between(low, high))
+        });
+        drawn.collect()
+    }
+
+    /// Where everything is; `None` if the joints do not say.
+    pub fn pose(&self, joints: JointPositions) -> Option<Pose> {
+        let poses = self.arm.link_poses_with_defaults(&joints).ok()?.base_from_links;
+        let base_from_link = self.links.iter().map(|link| poses[*link]).collect::<Option<_>>()?;
+        let base_from_end_effector = self.arm.base_from_end_effector(&joints).ok()?;
+        Some(Pose { joints, base_from_link, base_from_end_effector })
+    }
+
+    /// Draws it where `pose` has it: [`Raster::link`] is the shape that is seen.
+    pub fn draw(
+        &self,
+        raster: &mut Raster,
+        camera: &PinholeCamera,
+        pose: &Pose,
+        camera_from_base: &Transform<Camera, Base>,
+    ) {
+        let posed = self.meshes.iter().zip(&pose.base_from_link).zip(0..=u8::MAX);
+        let posed = posed.map(|((mesh, base_from_link), link)| PosedMesh {
+            mesh,
+            camera_from_link: *camera_from_base * *base_from_link,
+            link,
+        });
+        raster.draw(camera, &posed.collect::<Vec<_>>());
+    }
+
+    /// The lowest point of the arm but for the shapes that no joint moves, base frame, metres.
+    pub fn lowest_m(&self, pose: &Pose) -> f64 {
+        let moved = self.meshes.iter().zip(&pose.base_from_link).zip(&self.links);
+        let moved = moved.filter(|(_, link)| !self.rests(**link));
+        let corners = moved.flat_map(|((mesh, base_from_link), _)| {
+            let bounds = mesh.bounds().map(|(low, high)| corners(low, high));
+            let there = |corner: &Point3<f64>| base_from_link.point(corner).z;
+            bounds.into_iter().flatten().map(|corner| there(&corner)).collect::<Vec<_>>()
+        });
+        corners.fold(f64::INFINITY, f64::min)
+    }
+
+    fn rests(&self, link: usize) -> bool {
+        let robot = self.arm.robot();
+        let mut at = link;
+        while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != self.arm.base()) {
+            if robot.joints[joint].moves() {
+                return false;
+            }
+            at = parent;
+        }
+        true
+    }
+}
+
+fn corners(low: Point3<f32>, high: Point3<f32>) -> Vec<Point3<f64>> {
+    let pick = |bit: usize, axis: usize| f64::from(if bit == 0 { low[axis] } else { high[axis] });
+    (0..8).map(|n| Point3::new(pick(n & 1, 0), pick(n & 2, 1), pick(n & 4, 2))).collect()
+}
