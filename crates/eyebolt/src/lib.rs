@@ -4,6 +4,7 @@ pub mod answer;
 pub mod calibrate;
 mod connected;
 pub mod depth_noise;
+pub mod end_effector;
 pub mod evaluate;
 mod evenly;
 pub mod export;

@@ -17,5 +17,5 @@ pub use error::RecordError;
 pub use observe::observe;
 pub(crate) use options::MOST_CONFIGURATIONS;
 pub use options::RecordOptions;
-pub(crate) use shapes::shapes;
+pub(crate) use shapes::{plausible_mesh, shapes};
 pub(crate) use spread::most_spread;

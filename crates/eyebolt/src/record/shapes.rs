@@ -53,7 +53,8 @@ const MOST_LINKS: usize = 255;
 /// No link of an arm is larger than this, metres.
 const LARGEST_LINK_M: f32 = 5.0;
 
-fn plausible_mesh(link: &Link, prefer: Prefer) -> Result<TriangleMesh, RecordError> {
+/// The mesh of `link`, unless it is larger than any arm.
+pub(crate) fn plausible_mesh(link: &Link, prefer: Prefer) -> Result<TriangleMesh, RecordError> {
     let name = || link.name.clone();
     let failed = |source| RecordError::Mesh { link: name(), source };
     let mesh = link_mesh(link, prefer).map_err(failed)?.unwrap_or_default();
