@@ -12,10 +12,12 @@ mod logging;
 mod names;
 mod output;
 mod progress;
+mod segment;
 mod shell;
 mod simulate;
 mod study;
 mod summary;
+mod train;
 
 use clap::{Parser, Subcommand};
 use ending::{Ending, causes};
@@ -62,6 +64,13 @@ enum Command {
     /// Half of the sessions are spoiled by one thing each. A trusted answer should be within 10 mm and
     /// 0.6 degrees of the truth, and within what it expects itself.
     Study(study::Arguments),
+    /// Teach networks to know an arm from its description alone, or any arm
+    ///
+    /// Images are simulated while the network learns; nobody labels anything. A run that was ended goes on
+    /// with the same command.
+    Train(train::Arguments),
+    /// Say of each pixel of a recording whether it is the arm, by a network
+    Segment(segment::Arguments),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
 }
@@ -77,6 +86,8 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Train(arguments) => train::run(&arguments),
+        Command::Segment(arguments) => segment::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };
     match ending {

@@ -3,6 +3,7 @@
 mod background;
 mod configurations;
 mod error;
+mod frame_images;
 mod joints;
 mod merge;
 mod observe;
@@ -14,6 +15,7 @@ mod spread;
 
 pub(crate) use configurations::{Group, group_frames};
 pub use error::RecordError;
+pub use frame_images::FrameImages;
 pub use observe::observe;
 pub(crate) use options::MOST_CONFIGURATIONS;
 pub use options::RecordOptions;

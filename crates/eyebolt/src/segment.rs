@@ -2,11 +2,13 @@
 
 mod cluster;
 mod features;
+mod grid;
 mod segmenter;
 mod thinned;
 mod upsample;
 
 pub use features::{FEATURES, features};
+pub use grid::Grid;
 pub use segmenter::{
     ARM, BACKGROUND, END_EFFECTOR, SegmentError, Segmentation, Segmenter, UNKNOWN,
 };

@@ -53,6 +53,38 @@ pub fn cross_entropy(
     Ok(Loss { value, gradient })
 }
 
+/// Cross-entropy of softmax probabilities against distributions: of each row, how much of the truth is in
+/// each class. Mean over rows.
+///
+/// # Errors
+/// If shapes differ, there is no row, a row of `targets` has a negative value or does not sum to 1 within a
+/// thousandth, or a logit is not finite.
+pub fn soft_cross_entropy(logits: &Matrix, targets: &Matrix) -> Result<Loss, Error> {
+    let (rows, classes) = (logits.rows(), logits.channels());
+    if rows == 0 || (rows, classes) != (targets.rows(), targets.channels()) {
+        return Err(Error::input("targets", format!("not {rows} rows of {classes}")));
+    }
+    logits.check_finite("logits")?;
+    let mut gradient = Matrix::zeros(rows, classes);
+    let mut value = 0.0;
+    for row in 0..rows {
+        let (logits, target) = (logits.row(row), targets.row(row));
+        let sum: f32 = target.iter().sum();
+        if !target.iter().all(|share| *share >= 0.0) || (sum - 1.0).abs() > 1e-3 {
+            return Err(Error::input("targets", format!("row {row} is no distribution")));
+        }
+        let largest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let normaliser: f64 = logits.iter().map(|x| f64::from(x - largest).exp()).sum();
+        let out = &mut gradient.values_mut()[row * classes..][..classes];
+        for ((out, logit), share) in out.iter_mut().zip(logits).zip(target) {
+            let below = f64::from(logit - largest);
+            value -= f64::from(*share) * (below - normaliser.ln());
+            *out = ((below.exp() / normaliser - f64::from(*share)) / rows as f64) as f32;
+        }
+    }
+    Ok(Loss { value: value / rows as f64, gradient })
+}
+
 pub(super) fn check_labels(logits: &Matrix, labels: &[u32], ignore: u32) -> Result<(), Error> {
     if labels.len() != logits.rows() {
         let problem = format!("{} for {} rows of logits", labels.len(), logits.rows());

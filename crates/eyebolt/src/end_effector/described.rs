@@ -104,6 +104,12 @@ impl EndEffector {
         BoundingBox::about(vertices).expect("every part has a triangle")
     }
 
+    /// Diagonal of the box about the meshes with the fingers where they are without joint positions, metres:
+    /// no two of its points are farther apart.
+    pub fn extent_m(&self) -> f64 {
+        self.mesh_box(&JointPositions::default()).size_m().norm()
+    }
+
     /// All meshes as one, end-effector frame.
     pub fn mesh(&self, joints: &JointPositions) -> TriangleMesh {
         let mut whole = TriangleMesh::default();

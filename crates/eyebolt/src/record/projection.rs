@@ -9,6 +9,7 @@ use eyebolt_recording::{Frame, FrameSource, Range};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A camera, and how its frame is turned against the optical frame that answers are for.
+#[derive(Debug)]
 pub(crate) struct Projection {
     pub camera: PinholeCamera,
     pub optical_from_camera: Transform<Camera, Camera>,

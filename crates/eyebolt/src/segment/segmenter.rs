@@ -1,12 +1,13 @@
 //! From a depth image to labels of its pixels.
 
 use super::cluster::keep_largest_cluster;
-use super::features::{FEATURES, features};
+use super::features::FEATURES;
+use super::grid::Grid;
 use super::thinned::Thinned;
 use super::upsample::upsample;
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_net::models::{Architecture, Model};
-use eyebolt_net::{Batch, Cpu, Executor, Matrix};
+use eyebolt_net::{Cpu, Executor};
 
 /// Nothing, or something that is not the arm.
 pub const BACKGROUND: u8 = 0;
@@ -48,7 +49,7 @@ pub enum SegmentError {
 pub struct Segmenter {
     model: Model,
     executor: Cpu,
-    columns: usize,
+    grid: Grid,
 }
 
 /// Labels of an image.
@@ -80,8 +81,8 @@ impl Segmenter {
     pub fn new(model: Model) -> Result<Self, SegmentError> {
         let about = &model.description;
         let other = |field, problem: String| Err(SegmentError::OtherModel { field, problem });
-        let Some(columns) = about.image_columns else {
-            return other("image_columns", "the model is not on images".into());
+        let Some(grid) = Grid::of(about) else {
+            return other("image_columns", "the model is neither on images nor on voxels".into());
         };
         if about.features != FEATURES {
             return other("features", format!("{:?} are not {FEATURES:?}", about.features));
@@ -92,7 +93,7 @@ impl Segmenter {
         if !right {
             return other("classes", format!("{names:?} are not background, arm and end_effector"));
         }
-        Ok(Self { model, executor: Cpu::new(), columns: columns as usize })
+        Ok(Self { model, executor: Cpu::new(), grid })
     }
 
     /// Whether the end-effector is told apart.
@@ -115,15 +116,12 @@ impl Segmenter {
             return Err(SegmentError::Size { found, camera: size });
         }
         let (width, height) = (depth.width() as usize, depth.height() as usize);
-        let image = Thinned::new(depth, camera, self.columns);
+        let image = Thinned::new(depth, camera, self.grid.columns());
         let rows: Vec<usize> = image.seen().collect();
         if rows.is_empty() {
             return Ok(Segmentation { width, height, label: vec![UNKNOWN; width * height] });
         }
-        let pixel = |at: &usize| [(at % image.width) as u32, (at / image.width) as u32];
-        let pixels: Vec<[u32; 2]> = rows.iter().map(pixel).collect();
-        let features = Matrix::new(rows.len(), FEATURES.len(), features(&image))?;
-        let batch = Batch::from_images(&self.model.graph, &[&pixels], &features)?;
+        let batch = self.grid.batch(&self.model.graph, &[&image])?;
         let Model { graph, parameters, .. } = &self.model;
         let outputs = self.executor.infer(graph, parameters, &batch)?;
         let mut label = upsample(depth, &image, &rows, &outputs[0]);

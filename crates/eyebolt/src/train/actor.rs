@@ -113,6 +113,24 @@ impl Actor {
         raster.draw(camera, &posed.collect::<Vec<_>>());
     }
 
+    /// Middle of the box around the end-effector link's own shape, in its frame, metres; the origin if it
+    /// has none.
+    pub fn end_effector_middle(&self) -> Point3<f64> {
+        let bounds = self.end_effector_bounds();
+        bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
+    }
+
+    /// Diagonal of that box, metres, and at least a few centimetres.
+    pub fn end_effector_extent_m(&self) -> f64 {
+        let bounds = self.end_effector_bounds();
+        bounds.map_or(0.05, |(low, high)| f64::from((high - low).norm()).max(0.05))
+    }
+
+    fn end_effector_bounds(&self) -> Option<(Point3<f32>, Point3<f32>)> {
+        let own = self.links.iter().position(|link| *link == self.arm.end_effector());
+        self.meshes.get(own?)?.bounds()
+    }
+
     /// The lowest point of the arm but for the shapes that no joint moves, base frame, metres.
     pub fn lowest_m(&self, pose: &Pose) -> f64 {
         let moved = self.meshes.iter().zip(&pose.base_from_link).zip(&self.links);

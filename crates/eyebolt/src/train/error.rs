@@ -12,20 +12,15 @@ pub enum TrainError {
     /// The description is no arm.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// The end-effector has no shape to go by.
+    #[error(transparent)]
+    EndEffector(#[from] crate::end_effector::EndEffectorError),
     /// What the network says: weights, features, memory.
     #[error(transparent)]
     Net(#[from] eyebolt_net::Error),
     /// Ended from outside.
     #[error(transparent)]
     Cancelled(#[from] crate::progress::Cancelled),
-    /// The description has no shape where there must be one.
-    #[error("{robot}: {link}: no shape. Add a <visual> to the link, or name another end-effector")]
-    NoShape {
-        /// Name of the robot.
-        robot: String,
-        /// Name of the link.
-        link: String,
-    },
     /// A checkpoint, a dataset or a picture is not what it should be.
     #[error("{file}: {field}: {problem}")]
     File {

@@ -8,11 +8,11 @@ use crate::progress::Progress;
 use eyebolt_net::models::Model;
 use eyebolt_net::training::Trainer;
 use eyebolt_net::{Cpu, Parameters};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What is told of a run, one at a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Steps taken.
     pub step: u64,
@@ -105,6 +105,36 @@ pub fn teach<L: Lesson>(
         Ok::<(), TrainError>(())
     })?;
     finished(lesson, state)
+}
+
+/// Seconds that a step takes, over a few steps of a network that is then forgotten; `clock` tells seconds.
+///
+/// # Errors
+///
+/// As [`teach`].
+pub fn pace<L: Lesson>(
+    lesson: &L,
+    plan: &Plan,
+    clock: &dyn Fn() -> f64,
+) -> Result<f64, TrainError> {
+    /// Steps before the clock runs, and those that it runs for.
+    const STEPS: [u64; 2] = [4, 16];
+    let graph = lesson.graph();
+    let mut trainer = Trainer::new(graph, plan.rule, plan.schedule(), plan.seed);
+    std::thread::scope(|scope| {
+        let span = (0, STEPS[0] + STEPS[1]);
+        let mut feed = Feed::start(scope, plan.threads, span, |step| lesson.batch(step));
+        let mut cpu = Cpu::new();
+        let mut begun = clock();
+        while let Some(batch) = feed.next() {
+            let (batch, target) = batch?;
+            trainer.step(&mut cpu, graph, &batch, |outputs| lesson.loss(outputs, &target))?;
+            if trainer.step_count() == STEPS[0] {
+                begun = clock();
+            }
+        }
+        Ok((clock() - begun) / STEPS[1] as f64)
+    })
 }
 
 fn finished<L: Lesson>(lesson: &L, state: Checkpoint) -> Result<Model, TrainError> {

@@ -4,19 +4,20 @@ use super::error::TrainError;
 use super::lesson::Lesson;
 use super::scores::Confusion;
 use super::shot::{Cast, Framing, IGNORE, Shot};
-use crate::segment::{END_EFFECTOR, FEATURES, features};
+use crate::segment::{END_EFFECTOR, FEATURES, Grid, Thinned};
 use eyebolt_net::losses::{Loss, cross_entropy, lovasz_softmax};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
 use eyebolt_render::Random;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// Networks that tell arm and end-effector from the rest.
 pub struct SegmentationLesson {
     /// Whose images.
     pub cast: Cast,
-    /// What images are like.
-    pub framing: Framing,
+    /// In which cells the network sees them.
+    pub grid: Grid,
     /// Images of a step.
     pub images: u64,
     /// Of all random choices.
@@ -28,6 +29,8 @@ pub struct SegmentationLesson {
     net: MinkUNet,
     classes: Vec<String>,
     graph: Graph,
+    /// Images of the validations, drawn once.
+    held_out: OnceLock<Vec<Shot>>,
 }
 
 /// The label that losses leave out.
@@ -42,16 +45,28 @@ impl SegmentationLesson {
     /// # Errors
     ///
     /// The network is none.
-    pub fn new(cast: Cast, framing: Framing, net: MinkUNet, seed: u64) -> Result<Self, TrainError> {
+    pub fn new(cast: Cast, grid: Grid, net: MinkUNet, seed: u64) -> Result<Self, TrainError> {
         let graph = net.graph()?;
         let names = ["background", "arm", "end_effector"];
         let classes = names[..net.outputs.min(3)].iter().map(|name| (*name).to_owned()).collect();
         let (images, validation, trained_on) = (4, 64, String::new());
-        Ok(Self { cast, framing, images, seed, validation, trained_on, net, classes, graph })
+        Ok(Self {
+            cast,
+            grid,
+            images,
+            seed,
+            validation,
+            trained_on,
+            net,
+            classes,
+            graph,
+            held_out: OnceLock::new(),
+        })
     }
 
     fn shot(&self, stream: u64, index: u64) -> Result<Shot, TrainError> {
-        let mut shot = self.cast.shot(Random::new(self.seed).at(stream).at(index), self.framing)?;
+        let framing = Framing { columns: self.grid.columns(), ..Framing::ARM };
+        let mut shot = self.cast.shot(Random::new(self.seed).at(stream).at(index), framing)?;
         if self.classes.len() < 3 {
             shot.label
                 .iter_mut()
@@ -60,21 +75,26 @@ impl SegmentationLesson {
         }
         Ok(shot)
     }
-}
 
-/// Images as a network takes them, and the labels of its rows.
-pub fn batch_of(graph: &Graph, shots: &[Shot]) -> Result<(Batch, Vec<u32>), TrainError> {
-    let (mut values, mut pixels, mut labels) = (Vec::new(), Vec::new(), Vec::new());
-    for shot in shots {
-        values.extend(features(&shot.image));
-        let width = shot.image.width;
-        let place = |at: usize| [(at % width) as u32, (at / width) as u32];
-        pixels.push(shot.image.seen().map(place).collect::<Vec<[u32; 2]>>());
-        labels.extend(shot.image.seen().map(|at| u32::from(shot.label[at])));
+    fn held_out(&self) -> Result<&[Shot], TrainError> {
+        if let Some(shots) = self.held_out.get() {
+            return Ok(shots);
+        }
+        let shots = (0..self.validation).map(|index| self.shot(VALIDATE, index));
+        let shots = shots.collect::<Result<Vec<_>, _>>()?;
+        Ok(self.held_out.get_or_init(|| shots))
     }
-    let features = Matrix::new(labels.len(), FEATURES.len(), values)?;
-    let pixels: Vec<&[[u32; 2]]> = pixels.iter().map(Vec::as_slice).collect();
-    Ok((Batch::from_images(graph, &pixels, &features)?, labels))
+
+    /// Images as the network takes them, and the labels of its rows.
+    fn batch_of(&self, shots: &[Shot]) -> Result<(Batch, Vec<u32>), TrainError> {
+        let images: Vec<&Thinned> = shots.iter().map(|shot| &shot.image).collect();
+        let label = |shot: &Shot, at: usize| u32::from(shot.label[at]);
+        let labels = shots
+            .iter()
+            .flat_map(|shot| shot.image.seen().map(move |at| label(shot, at)))
+            .collect();
+        Ok((self.grid.batch(&self.graph, &images)?, labels))
+    }
 }
 
 impl Lesson for SegmentationLesson {
@@ -86,8 +106,14 @@ impl Lesson for SegmentationLesson {
 
     fn description(&self) -> ModelDescription {
         ModelDescription {
-            voxel_m: None,
-            image_columns: Some(self.framing.columns as u32),
+            voxel_m: match self.grid {
+                Grid::Voxels { edge_m } => Some(edge_m),
+                Grid::Image { .. } => None,
+            },
+            image_columns: match self.grid {
+                Grid::Image { columns } => Some(columns as u32),
+                Grid::Voxels { .. } => None,
+            },
             features: FEATURES.map(str::to_owned).to_vec(),
             classes: self.classes.clone(),
             frame: "camera".into(),
@@ -100,7 +126,7 @@ impl Lesson for SegmentationLesson {
 
     fn batch(&self, step: u64) -> Result<(Batch, Vec<u32>), TrainError> {
         let shots = (0..self.images).map(|image| self.shot(LEARN, step * self.images + image));
-        batch_of(&self.graph, &shots.collect::<Result<Vec<_>, _>>()?)
+        self.batch_of(&shots.collect::<Result<Vec<_>, _>>()?)
     }
 
     fn loss(&self, outputs: &[Matrix], labels: &Vec<u32>) -> Result<Vec<Loss>, eyebolt_net::Error> {
@@ -115,9 +141,8 @@ impl Lesson for SegmentationLesson {
         executor: &mut Cpu,
     ) -> Result<(BTreeMap<String, f64>, f64), TrainError> {
         let mut confusion = Confusion::new(self.classes.len());
-        for index in 0..self.validation {
-            let shot = self.shot(VALIDATE, index)?;
-            let (batch, labels) = batch_of(&self.graph, std::slice::from_ref(&shot))?;
+        for shot in self.held_out()? {
+            let (batch, labels) = self.batch_of(std::slice::from_ref(shot))?;
             let outputs = executor.infer(&self.graph, parameters, &batch)?;
             let narrow = |labels: Vec<u32>| labels.into_iter().map(|label| label as u8).collect();
             let found: Vec<u8> = narrow(outputs[0].argmax());

@@ -53,6 +53,13 @@ pub struct Framing {
     pub faults: bool,
 }
 
+impl Framing {
+    /// The arm in its room, as a segmentation sees it.
+    pub const ARM: Self = Self { columns: 160, at_end_effector: false, faults: true };
+    /// The part of an image with the end-effector.
+    pub const AT_END_EFFECTOR: Self = Self { columns: 112, at_end_effector: true, faults: true };
+}
+
 /// Images drawn until one shows the arm.
 const TRIES: u64 = 40;
 /// Share of the image that the arm takes at least, and how often it may be less.
@@ -91,9 +98,10 @@ impl Cast {
 fn shot_of(actor: &Actor, random: Random, framing: Framing) -> Option<Shot> {
     let mut style = random.at(0);
     let pose = any_pose(actor, &mut random.at(1))?;
-    let camera = any_camera(&mut style, framing.columns);
-    let base_from_camera = any_viewpoint(actor, &pose, &mut style, framing);
-    let (mut image, label) = draw(actor, &pose, &camera, &base_from_camera, random.at(2));
+    let look = if framing.at_end_effector { look_at_end_effector } else { look_at_arm };
+    let (camera, base_from_camera) = look(actor, &pose, &mut style, framing.columns);
+    let (mut image, label) =
+        draw(actor, &pose, &camera, &base_from_camera, framing.at_end_effector, random.at(2));
     let count = |of: &dyn Fn(u8) -> bool| label.iter().filter(|label| of(**label)).count() as f64;
     let share = if framing.at_end_effector {
         count(&|label| label == END_EFFECTOR)
@@ -119,49 +127,72 @@ fn any_pose(actor: &Actor, random: &mut Random) -> Option<Pose> {
     poses.find(|pose| actor.lowest_m(pose) > SINKS_M)
 }
 
-/// A camera of usual shape and angle of view.
-fn any_camera(random: &mut Random, columns: usize) -> PinholeCamera {
-    let wide = random.uniform() < 0.4;
-    let rows = if wide { columns * 9 / 16 } else { columns * 3 / 4 };
+/// A camera of usual shape and angle of view, somewhere around, with the arm in view.
+fn look_at_arm(
+    actor: &Actor,
+    pose: &Pose,
+    random: &mut Random,
+    columns: usize,
+) -> (PinholeCamera, Transform<Base, Camera>) {
+    let rows = if random.uniform() < 0.4 { columns * 9 / 16 } else { columns * 3 / 4 };
     let half_view = random.between(24.0, 46.0).to_radians();
     let focal = 0.5 * columns as f64 / half_view.tan();
     let middle = [columns, rows]
         .map(|size| 0.5 * (size as f64 - 1.0) + size as f64 * 0.02 * random.normal());
-    let camera = PinholeCamera::new(
-        columns as u32,
-        rows as u32,
-        focal,
-        focal,
-        middle[0],
-        middle[1],
-        Distortion::None,
-    );
-    camera.expect("a focal length above 0, and a few columns")
+    let camera = camera([columns, rows], focal, middle);
+    let tip = pose.base_from_end_effector.translation_m();
+    let stray = 0.15 * actor.reach_m;
+    let at = tip * random.uniform() + Vector3::from_fn(|_, _| stray * random.normal());
+    let distance = spread_evenly(random, 0.45, 3.6).max(0.5 * actor.reach_m);
+    (camera, from_anywhere(random, at, distance))
 }
 
-/// Somewhere around, with the arm in view.
-fn any_viewpoint(
+/// The part of an image of some camera that shows the end-effector.
+fn look_at_end_effector(
     actor: &Actor,
     pose: &Pose,
     random: &mut Random,
-    framing: Framing,
-) -> Transform<Base, Camera> {
-    let tip = pose.base_from_end_effector.translation_m();
-    let along = if framing.at_end_effector { 1.0 } else { random.uniform() };
-    let stray = if framing.at_end_effector { 0.05 } else { 0.15 * actor.reach_m };
-    let at = tip * along + Vector3::from_fn(|_, _| stray * random.normal());
-    let (near, far) = if framing.at_end_effector { (0.4, 2.2) } else { (0.45, 3.6) };
-    let distance = (near / far as f64).powf(random.uniform()) * far;
-    let distance = distance.max(if framing.at_end_effector { 0.4 } else { 0.5 * actor.reach_m });
+    columns: usize,
+) -> (PinholeCamera, Transform<Base, Camera>) {
+    let extent = actor.end_effector_extent_m();
+    let distance = spread_evenly(random, 0.4, 2.2).max(2.0 * extent);
+    // As many pixels as real cameras give it at that distance.
+    let focal = random.between(380.0, 750.0).min(0.9 * columns as f64 * distance / extent);
+    let middle = pose.base_from_end_effector.point(&actor.end_effector_middle());
+    let base_from_axis = from_anywhere(random, middle.coords, distance);
+    // Beside the optical axis of the whole image.
+    let aside = [0, 1].map(|_| 0.25 * random.normal());
+    let turn = Rotation3::from_euler_angles(aside[0], aside[1], 0.0);
+    let turn = Transform::<Camera, Camera>::from_parts(
+        Vector3::zeros(),
+        UnitQuaternion::from_rotation_matrix(&turn),
+    );
+    let toward = turn.inverse().direction(&Vector3::z());
+    let half = 0.5 * (columns as f64 - 1.0);
+    let at = [toward.x, toward.y].map(|slope| half - focal * slope / toward.z);
+    (camera([columns, columns], focal, at), base_from_axis * turn)
+}
+
+fn camera([columns, rows]: [usize; 2], focal: f64, [cx, cy]: [f64; 2]) -> PinholeCamera {
+    let (width, height) = (columns as u32, rows as u32);
+    let camera = PinholeCamera::new(width, height, focal, focal, cx, cy, Distortion::None);
+    camera.expect("a focal length above 0, and a few columns")
+}
+
+/// From `low` to `high`, each octave as often.
+fn spread_evenly(random: &mut Random, low: f64, high: f64) -> f64 {
+    (low / high).powf(random.uniform()) * high
+}
+
+/// A camera so far from `at` that looks at it from any side, mostly upright and from above.
+fn from_anywhere(random: &mut Random, at: Vector3<f64>, distance: f64) -> Transform<Base, Camera> {
     let around = random.between(0.0, std::f64::consts::TAU);
-    let height = random.between(-0.25, 1.0);
-    let toward = Vector3::new(around.cos(), around.sin(), height).normalize();
-    let eye = at + distance * toward;
+    let toward = Vector3::new(around.cos(), around.sin(), random.between(-0.25, 1.0)).normalize();
     let roll = if random.uniform() < 0.2 { 3.0 * random.normal() } else { 0.12 * random.normal() };
     let looking = Rotation3::face_towards(&-toward, &-Vector3::z());
     let roll = Rotation3::from_axis_angle(&Vector3::z_axis(), roll);
     let rotation = UnitQuaternion::from_rotation_matrix(&(looking * roll));
-    Transform::from_parts(eye, rotation)
+    Transform::from_parts(at + distance * toward, rotation)
 }
 
 /// Ideal depth of the arm before what stands around, and whose each pixel is.
@@ -170,13 +201,18 @@ fn draw(
     pose: &Pose,
     camera: &PinholeCamera,
     base_from_camera: &Transform<Base, Camera>,
+    at_end_effector: bool,
     random: Random,
 ) -> (Thinned, Vec<u8>) {
     let mut raster = Raster::new(camera);
     actor.draw(&mut raster, camera, pose, &base_from_camera.inverse());
     let rays = RayTable::new(camera);
     let mut depth_m = Vec::new();
-    scenery(random.at(0), base_from_camera).depth(&rays, base_from_camera, &mut depth_m);
+    if at_end_effector {
+        depth_m = backdrop(&rays, &raster, &mut random.at(0));
+    } else {
+        scenery(random.at(0), base_from_camera).depth(&rays, base_from_camera, &mut depth_m);
+    }
     let mut label = vec![BACKGROUND; depth_m.len()];
     for at in raster.pixels() {
         let (Some(z), Some(link)) = (raster.depth_m(at), raster.link(at)) else { continue };
@@ -203,6 +239,27 @@ fn draw(
     let (width, height) = (camera.width() as usize, camera.height() as usize);
     let rays = crate::segment::rays(camera, 1);
     (Thinned { width, height, step: 1, depth_m, rays }, label)
+}
+
+/// A plane somewhere behind the middle of what is drawn: of the room, no more is seen beside an
+/// end-effector from near. Or nothing, where that is out of range.
+fn backdrop(rays: &RayTable, raster: &Raster, random: &mut Random) -> Vec<f32> {
+    const NOTHING_BEHIND: f64 = 0.2;
+    let none = vec![0.0; rays.rays().len()];
+    let (columns, rows) = raster.drawn();
+    let middle = (rows.start + rows.end) / 2 * raster.width() + (columns.start + columns.end) / 2;
+    let (Some(z), true) = (raster.depth_m(middle), random.uniform() >= NOTHING_BEHIND) else {
+        return none;
+    };
+    let [slope_x, slope_y] = [0, 1].map(|_| 0.7 * random.normal() as f32);
+    let [x0, y0] = rays.rays()[middle];
+    let behind = z + spread_evenly(random, 0.03, 2.0) as f32;
+    // Through the point behind the middle, with normal (slope_x, slope_y, -1).
+    let at = |[x, y]: &[f32; 2]| {
+        let z = behind * (1.0 - slope_x * x0 - slope_y * y0) / (1.0 - slope_x * x - slope_y * y);
+        if z.is_finite() && (0.0..20.0).contains(&z) { z } else { 0.0 }
+    };
+    rays.rays().iter().map(at).collect()
 }
 
 /// Tools, brackets and cables that a description lacks.

@@ -1,0 +1,103 @@
+//! `eyebolt segment`.
+
+use crate::ending::Ending;
+use crate::inputs::{RecordingArguments, use_threads};
+use crate::output;
+use crate::progress::Counting;
+use anyhow::{Context, Result, bail};
+use eyebolt::progress::Progress;
+use eyebolt::record::FrameImages;
+use eyebolt::segment::{ARM, BACKGROUND, END_EFFECTOR, Segmenter};
+use std::path::{Path, PathBuf};
+
+/// Options of `eyebolt segment`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    recording: RecordingArguments,
+    /// Folder of a model that eyebolt train made, such as models/panda
+    #[arg(long, value_name = "FOLDER")]
+    model: PathBuf,
+    /// Folder for label_FRAME.npy: 0 background, 1 arm, 2 end-effector, 255 no depth
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    /// Replace existing files
+    #[arg(long)]
+    force: bool,
+    /// Threads to use; otherwise one for each core
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    use_threads(arguments.threads)?;
+    let mut segmenter = load(&arguments.model)?;
+    let recording = arguments.recording.open()?;
+    let names = recording.frame_names().to_vec();
+    let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
+    names.iter().try_for_each(|name| output::refuse_existing(&path(name), arguments.force))?;
+    if names.is_empty() {
+        bail!("{}: there is no frame in it", arguments.recording.recording.display());
+    }
+    let images = FrameImages::of(recording.source())?;
+    let bar = Counting::new()?;
+    let (mut arm, mut hand, mut left_out) = (0, 0, 0);
+    for (index, name) in names.iter().enumerate() {
+        bar.advance(index, names.len())?;
+        let Some(depth) = images.depth(recording.source(), index)? else {
+            left_out += 1;
+            continue;
+        };
+        let found = segmenter.segment(&depth, images.camera())?;
+        let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
+        arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
+        hand += usize::from(count(END_EFFECTOR) > 0);
+        debug_assert!(BACKGROUND == 0);
+        let bytes = npy([found.height, found.width], &found.label);
+        output::write_whole(&path(name), &bytes, arguments.force)?;
+    }
+    drop(bar);
+    let (written, folder) = (names.len() - left_out, arguments.output.display());
+    let hand = match segmenter.tells_end_effector() {
+        true => format!(", the end-effector in {hand}"),
+        false => String::new(),
+    };
+    output::say(&format!("{written} frames written to {folder}: the arm in {arm}{hand}"));
+    if left_out > 0 {
+        output::complain(&format!("note: {left_out} damaged frames left out"));
+    }
+    Ok(Ending::Done)
+}
+
+/// The segmentation in the folder of a model, or in that of the network itself.
+fn load(folder: &Path) -> Result<Segmenter> {
+    let inner = folder.join("segmentation");
+    let folder = if inner.is_dir() { inner.as_path() } else { folder };
+    let read = |name: &str| {
+        let path = folder.join(name);
+        let failed = || {
+            format!(
+                "{}: cannot read it. Name the folder of a model with --model, or make one with eyebolt train",
+                path.display()
+            )
+        };
+        std::fs::read(&path).with_context(failed)
+    };
+    let text = String::from_utf8_lossy(&read("model.toml")?).into_owned();
+    let of = || format!("{}", folder.display());
+    Segmenter::load(&text, &read("weights.safetensors")?).with_context(of)
+}
+
+/// A file of NumPy, version 1.0, of bytes, row by row.
+fn npy([height, width]: [usize; 2], values: &[u8]) -> Vec<u8> {
+    let header =
+        format!("{{'descr': '|u1', 'fortran_order': False, 'shape': ({height}, {width}), }}");
+    // Magic, version and length take ten bytes, a line break the last; numbers start at a multiple of 64.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((length as u16).to_le_bytes());
+    bytes.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    bytes.extend(values);
+    bytes
+}
