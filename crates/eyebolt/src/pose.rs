@@ -8,7 +8,9 @@ mod rotation_net;
 mod view;
 
 pub use global_search::GlobalSearch;
-pub use keypoint_net::{FoundKeypoint, KeypointNet, OUTPUTS as KEYPOINT_OUTPUTS, keypoints_of};
+pub use keypoint_net::{
+    KeypointNet, MatchedPose, PARTS, POINT_OUTPUTS, keypoint_outputs, matched_pose,
+};
 pub use proposer::{Hypothesis, PoseProposer};
 pub use rotation_net::{Decoder, PoseNetError, QUATERNION, RotationMode, RotationNet, view_batch};
 pub use view::{CELLS, EndEffectorView, VIEW_FEATURES};

@@ -3,12 +3,14 @@
 mod actor;
 mod checkpoint;
 mod corrupt;
+mod drawing;
 mod error;
 mod feed;
 mod hand;
 mod invented;
 mod keypoints;
 mod lesson;
+mod look;
 mod preset;
 mod rotation;
 mod run;

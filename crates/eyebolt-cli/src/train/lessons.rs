@@ -67,8 +67,7 @@ pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Resu
         }
         Kind::Keypoints => {
             let hand = hand(arguments, arm)?;
-            let net = arguments.preset.keypoints(KeypointLesson::outputs(&hand))?;
-            let mut lesson = KeypointLesson::new(hand, net)?;
+            let mut lesson = KeypointLesson::new(hand, arguments.preset.keypoints()?)?;
             lesson.trained_on = about;
             finish(arguments, &lesson, folder, progress)
         }

@@ -1,40 +1,48 @@
-//! The end-effector is one thing.
+//! An arm is one thing, and so is its end-effector.
 
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
-/// Points nearer to each other than about this belong together: single linkage, which on a grid of cells
-/// of that edge is connected components (the paper's code cuts its linkage at 6 cm).
-const LINKAGE_M: f32 = 0.06;
+/// Points of an end-effector nearer to each other than about this belong together: single linkage, which on
+/// a grid of cells is connected components (the paper's code cuts its linkage at 6 cm).
+pub const END_EFFECTOR_LINKAGE_M: f32 = 0.06;
+/// Of an arm, across which depth fails in patches.
+pub const ARM_LINKAGE_M: f32 = 0.12;
 
-/// Leaves `class` to the largest cluster of its points and gives the others `instead`.
+type Cell = [i32; 3];
+
+/// Leaves their labels to the largest cluster of the points whose label is `of`, by its area, and gives the
+/// others `instead`.
 pub fn keep_largest_cluster(
     label: &mut [u8],
     depth: &DepthImage,
     camera: &PinholeCamera,
-    class: u8,
+    linkage_m: f32,
+    of: impl Fn(u8) -> bool,
     instead: u8,
 ) {
     let rays = RayTable::new(camera);
-    // A cell of half the length: neighbours touch, and points of neighbouring cells are within it.
+    // Half the length: cells that touch hold points within it.
     let cell = |at: usize| {
         let point = rays.point(at, depth.depth_m()[at]);
-        [0, 1, 2].map(|axis| (point[axis] / (0.5 * LINKAGE_M)).floor() as i32)
+        [0, 1, 2].map(|axis| (point[axis] / (0.5 * linkage_m)).floor() as i32)
     };
-    let points: Vec<(usize, [i32; 3])> =
-        (0..label.len()).filter(|at| label[*at] == class).map(|at| (at, cell(at))).collect();
-    let mut counts: HashMap<[i32; 3], usize> = HashMap::new();
-    points.iter().for_each(|(_, cell)| *counts.entry(*cell).or_default() += 1);
-    let clusters = clusters(&counts);
-    let mut sizes: HashMap<usize, usize> = HashMap::new();
-    counts.iter().for_each(|(cell, count)| *sizes.entry(clusters[cell]).or_default() += count);
+    let points: Vec<(usize, Cell)> =
+        (0..label.len()).filter(|at| of(label[*at])).map(|at| (at, cell(at))).collect();
+    let mut areas: BTreeMap<Cell, f64> = BTreeMap::new();
+    for (at, cell) in &points {
+        // A pixel covers an area that grows with the square of its depth.
+        *areas.entry(*cell).or_default() += f64::from(depth.depth_m()[*at]).powi(2);
+    }
+    let clusters = clusters(&areas);
+    let mut sizes: BTreeMap<usize, f64> = BTreeMap::new();
+    areas.iter().for_each(|(cell, area)| *sizes.entry(clusters[cell]).or_default() += area);
     // The first of equally large ones.
-    let Some(best) =
-        sizes.iter().max_by_key(|(cluster, size)| (**size, std::cmp::Reverse(**cluster)))
-    else {
-        return;
+    let largest = |a: &(&usize, &f64), b: &(&usize, &f64)| {
+        a.1.total_cmp(b.1).then(Reverse(a.0).cmp(&Reverse(b.0)))
     };
-    let best = *best.0;
+    let Some((&best, _)) = sizes.iter().max_by(largest) else { return };
     for (at, _) in points.iter().filter(|(_, cell)| clusters[cell] != best) {
         label[*at] = instead;
     }
@@ -42,33 +50,59 @@ pub fn keep_largest_cluster(
 
 /// The cluster of each cell: cells that touch, corners included, belong together. Clusters are numbered
 /// in the order of their least cells.
-fn clusters(counts: &HashMap<[i32; 3], usize>) -> HashMap<[i32; 3], usize> {
-    let mut cells: Vec<[i32; 3]> = counts.keys().copied().collect();
-    cells.sort_unstable();
-    let mut of = HashMap::new();
+fn clusters(cells: &BTreeMap<Cell, f64>) -> BTreeMap<Cell, usize> {
+    let mut of = BTreeMap::new();
     let mut next = 0;
-    for seed in cells {
-        if of.contains_key(&seed) {
+    for seed in cells.keys() {
+        if of.contains_key(seed) {
             continue;
         }
-        let mut open = vec![seed];
-        of.insert(seed, next);
-        while let Some([x, y, z]) = open.pop() {
-            for step in 0..27 {
-                let [dx, dy, dz] = [step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1];
-                let [Some(x), Some(y), Some(z)] =
-                    [x.checked_add(dx), y.checked_add(dy), z.checked_add(dz)]
-                else {
-                    continue;
-                };
-                let cell = [x, y, z];
-                if counts.contains_key(&cell) && !of.contains_key(&cell) {
-                    of.insert(cell, next);
-                    open.push(cell);
+        let mut open = vec![*seed];
+        of.insert(*seed, next);
+        while let Some(cell) = open.pop() {
+            for other in around(cell) {
+                if cells.contains_key(&other) && !of.contains_key(&other) {
+                    of.insert(other, next);
+                    open.push(other);
                 }
             }
         }
         next += 1;
     }
     of
+}
+
+fn around(cell: Cell) -> impl Iterator<Item = Cell> {
+    (0..27).map(move |step| {
+        let by = [step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1];
+        [0, 1, 2].map(|axis| cell[axis].saturating_add(by[axis]))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eyebolt_geometry::Distortion;
+
+    /// Three patches of a wall: two a little apart hang together, the third is elsewhere and smaller.
+    #[test]
+    fn the_largest_stays_with_what_is_near_it() {
+        let camera =
+            PinholeCamera::new(100, 40, 100.0, 100.0, 49.5, 19.5, Distortion::None).unwrap();
+        let depth = DepthImage::new(100, 40, vec![1.0; 4000]).unwrap();
+        // A pixel is 1 cm wide.
+        let patch = |at: usize| match at % 100 {
+            10..30 => 2,
+            33..50 => 2,
+            70..85 => 2,
+            _ => 0,
+        };
+        let mut label: Vec<u8> = (0..4000).map(patch).collect();
+        keep_largest_cluster(&mut label, &depth, &camera, 0.06, |label| label == 2, 1);
+        for (at, found) in label.iter().enumerate() {
+            let wanted = if (70..85).contains(&(at % 100)) { 1 } else { patch(at) };
+            assert_eq!(*found, wanted, "{}", at % 100);
+        }
+        keep_largest_cluster(&mut [0; 4000], &depth, &camera, 0.06, |label| label == 2, 1);
+    }
 }

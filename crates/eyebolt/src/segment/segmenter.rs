@@ -1,6 +1,6 @@
 //! From a depth image to labels of its pixels.
 
-use super::cluster::keep_largest_cluster;
+use super::cluster::{ARM_LINKAGE_M, END_EFFECTOR_LINKAGE_M, keep_largest_cluster};
 use super::features::FEATURES;
 use super::grid::Grid;
 use super::thinned::Thinned;
@@ -125,9 +125,10 @@ impl Segmenter {
         let Model { graph, parameters, .. } = &self.model;
         let outputs = self.executor.infer(graph, parameters, &batch)?;
         let mut label = upsample(depth, &image, &rows, &outputs[0]);
-        if self.tells_end_effector() {
-            keep_largest_cluster(&mut label, depth, camera, END_EFFECTOR, ARM);
-        }
+        let arm = |label| label == ARM || label == END_EFFECTOR;
+        keep_largest_cluster(&mut label, depth, camera, ARM_LINKAGE_M, arm, BACKGROUND);
+        let hand = |label| label == END_EFFECTOR;
+        keep_largest_cluster(&mut label, depth, camera, END_EFFECTOR_LINKAGE_M, hand, ARM);
         Ok(Segmentation { width, height, label })
     }
 }

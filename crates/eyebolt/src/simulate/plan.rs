@@ -56,7 +56,7 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         scenario.viewpoint.base_from_camera(&mut RandomStream::Viewpoint.of(seed));
     let bumped = scenario.faults.bumped(&base_from_camera, &mut RandomStream::Bump.of(seed));
     let eye = base_from_camera.point(&Point3::origin());
-    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &eye, usual_size(&scenario));
+    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &[eye], usual_size(&scenario));
     let walls = solids.len();
     let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
     let onlooker = Onlooker {

@@ -28,9 +28,9 @@ pub const HALL: RoomSize = RoomSize { walls_m: [4.0, 6.0], half_m: 7.0 };
 /// How far walls are behind the camera at least, metres.
 const BEHIND_CAMERA_M: f64 = 0.3;
 
-/// The room around an arm and a camera at `eye` (base frame): what never comes nearer to the arm
+/// The room around an arm and cameras at `eyes` (base frame): what never comes nearer to the arm
 /// than the table does, nor between the two.
-pub fn room(random: &mut Random, eye: &Point3<f64>, size: RoomSize) -> Vec<Solid> {
+pub fn room(random: &mut Random, eyes: &[Point3<f64>], size: RoomSize) -> Vec<Solid> {
     let RoomSize { walls_m: [near, far], half_m } = size;
     let top = -TABLE_BELOW_M;
     let [x, y] = TABLE_MIDDLE_M;
@@ -46,7 +46,8 @@ pub fn room(random: &mut Random, eye: &Point3<f64>, size: RoomSize) -> Vec<Solid
     }));
     // Walls on all four sides, at a distance of their own.
     for (axis, sign) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)] {
-        let far = random.between(near, far).max(sign * eye[axis] + BEHIND_CAMERA_M);
+        let behind = eyes.iter().map(|eye| sign * eye[axis] + BEHIND_CAMERA_M);
+        let far = behind.fold(random.between(near, far), f64::max);
         let mut at = [0.0, 0.0, 0.8];
         let mut size = [2.0 * half_m; 3];
         size[2] = 3.4;
@@ -58,9 +59,9 @@ pub fn room(random: &mut Random, eye: &Point3<f64>, size: RoomSize) -> Vec<Solid
 }
 
 /// A room or a hall, as `random` decides.
-pub fn room_of_any_size(random: &mut Random, eye: &Point3<f64>) -> Vec<Solid> {
+pub fn room_of_any_size(random: &mut Random, eyes: &[Point3<f64>]) -> Vec<Solid> {
     let size = if random.uniform() < 0.5 { ROOM } else { HALL };
-    room(random, eye, size)
+    room(random, eyes, size)
 }
 
 /// Something to stand about on the table or beside it, wherever `random` puts it.

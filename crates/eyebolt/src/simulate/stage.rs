@@ -36,7 +36,8 @@ pub(super) fn stages(
         let mut random = random.at(index as u64);
         let other = random.uniform() < lab.other_rooms;
         Stage {
-            other_room: other.then(|| scene::room(&mut random, eye, any_size(index))),
+            other_room: other
+                .then(|| scene::room(&mut random, std::slice::from_ref(eye), any_size(index))),
             passing: passing.next().unwrap_or_default(),
             beside: beside.next().flatten(),
         }

@@ -75,7 +75,8 @@ impl Hand {
         let random = Random::new(self.seed).at(stream).at(index);
         let framing = Framing::AT_END_EFFECTOR;
         for attempt in 0..TRIES {
-            let shot = self.cast.shot(random.at(attempt), framing)?;
+            let shots = self.cast.shots(random.at(attempt), 1, framing)?;
+            let Some(shot) = shots.into_iter().next() else { continue };
             let points = if true_labels {
                 points(&shot, &shot.label)
             } else {

@@ -34,10 +34,11 @@ pub fn urdf(random: Random) -> String {
     let kind = style.index(4);
     let mut text = String::from("<robot name=\"invented\">\n");
     let foot = [style.between(2.0, 3.4) * thick, style.between(2.0, 3.4) * thick, 0.04];
+    let pillar = style.between(0.05, 0.22);
     let foot_shapes =
         cuboid([0.0, 0.0, 0.02], foot) + &cylinder("z", [0.0, 0.0, 0.03], 1.2 * thick, 0.06);
     link(&mut text, BASE, &foot_shapes);
-    let (mut parent, mut at) = (BASE.to_owned(), [0.0, 0.0, style.between(0.05, 0.12)]);
+    let (mut parent, mut at) = (BASE.to_owned(), [0.0, 0.0, pillar + style.between(0.0, 0.06)]);
     for (index, axis) in axes.chars().enumerate() {
         let name = format!("link{}", index + 1);
         let mut random = random.at(1).at(index as u64);

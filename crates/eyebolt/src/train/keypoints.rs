@@ -1,16 +1,21 @@
-//! Learning where the keypoints of an end-effector are.
+//! Learning which point of an end-effector is which.
 
 use super::error::TrainError;
 use super::hand::{Hand, HandView, HeldOut};
 use super::lesson::Lesson;
-use crate::pose::{KEYPOINT_OUTPUTS, VIEW_FEATURES, keypoints_of, view_batch};
-use eyebolt_net::losses::{Loss, laplace};
+use crate::pose::{
+    CELLS, PARTS, POINT_OUTPUTS, VIEW_FEATURES, keypoint_outputs, matched_pose, view_batch,
+};
+use eyebolt_geometry::{EndEffector, Link, Transform};
+use eyebolt_net::losses::{Loss, cross_entropy, laplace};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
+use eyebolt_net::sampling::farthest_points;
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
-use nalgebra::Point3;
+use eyebolt_robot::JointPositions;
+use nalgebra::{Isometry3, Point3};
 use std::collections::BTreeMap;
 
-/// Networks by which every point of an end-effector votes for where its keypoints are.
+/// Networks that say of every point of an end-effector which one it is.
 pub struct KeypointLesson {
     /// Whose.
     pub hand: Hand,
@@ -23,62 +28,104 @@ pub struct KeypointLesson {
     held_out: HeldOut,
     net: MinkUNet,
     graph: Graph,
-    /// Which keypoint each looks like after turns that cannot be seen, the identity first.
-    permutations: Vec<Vec<usize>>,
+    /// Turns of the end-effector that cannot be seen, the identity first.
+    twins: Vec<Isometry3<f64>>,
+    /// Middles of the parts that are told apart, end-effector frame, metres.
+    parts: Vec<Point3<f32>>,
 }
 
-/// Where keypoints may be in a batch.
+/// What each cell shows, for every item and turn that cannot be seen.
 pub struct KeypointTarget {
-    /// Of each item: its rows, and for every permutation the offsets of the keypoints from each row, in halves
-    /// of the view.
-    items: Vec<(usize, Vec<Matrix>)>,
+    items: Vec<(usize, Vec<Matched>)>,
+}
+
+/// What the cells of an item show.
+struct Matched {
+    /// Of each cell, its part.
+    parts: Vec<u32>,
+    /// Of each cell, its point, in halves of the view.
+    points: Matrix,
 }
 
 const LEARN: u64 = 5;
 const VALIDATE: u64 = 6;
-/// A keypoint counts as found if the votes say it is known this well, metres.
-const FOUND_M: f64 = 0.012;
+/// Points of the surface among which the middles of parts are chosen.
+const SURFACE: usize = 4000;
+/// The label of no part; there is none.
+const IGNORE: u32 = u32::MAX;
+
+/// How far the keypoints and the pose of a view are off.
+struct Off {
+    keypoints_mm: Vec<f64>,
+    rotation_deg: f64,
+    translation_mm: f64,
+}
 
 impl KeypointLesson {
-    /// By a network with four outputs for each keypoint of the end-effector.
+    /// By a network with four outputs.
     ///
     /// # Errors
     ///
     /// The network is none.
     pub fn new(hand: Hand, net: MinkUNet) -> Result<Self, TrainError> {
         let graph = net.graph()?;
-        let mut permutations = hand.end_effector.keypoint_permutations();
-        permutations.dedup();
+        let turns = hand.end_effector.symmetry().turns();
+        let twins = std::iter::once(Isometry3::identity()).chain(turns).collect();
         let (views, validation, trained_on) = (12, 128, String::new());
         let held_out = HeldOut::default();
-        Ok(Self { hand, views, validation, trained_on, held_out, net, graph, permutations })
+        let surface = hand.end_effector.points(&JointPositions::default(), SURFACE);
+        let surface: Vec<[f32; 3]> =
+            surface.iter().map(|point| point.cast::<f32>().into()).collect();
+        let chosen = farthest_points(&surface, PARTS).into_iter();
+        let parts = chosen.map(|at| Point3::from(surface[at as usize])).collect();
+        Ok(Self { hand, views, validation, trained_on, held_out, net, graph, twins, parts })
     }
 
-    /// Outputs of a network for `hand`.
-    pub fn outputs(hand: &Hand) -> usize {
-        hand.end_effector.fixed_keypoints().len() * KEYPOINT_OUTPUTS.len()
-    }
-
-    /// The keypoints in the view's frame, metres.
-    fn truth(&self, view: &HandView) -> Vec<Point3<f64>> {
-        let keypoints = self.hand.end_effector.keypoints(&view.joints);
-        keypoints.iter().map(|point| view.view_from_end_effector.point(point)).collect()
-    }
-
-    fn offsets(&self, view: &HandView) -> Result<Vec<Matrix>, TrainError> {
-        let (truth, seen) = (self.truth(view), &view.view);
-        let of = |permutation: &Vec<usize>| {
-            let row = |point: &[f32; 3]| {
-                let offset = |keypoint: &usize| {
-                    let at: [f32; 3] = truth[*keypoint].cast::<f32>().into();
-                    [0, 1, 2].map(|axis| (at[axis] - point[axis]) / seen.half_m)
-                };
-                permutation.iter().flat_map(offset).collect::<Vec<f32>>()
-            };
-            let values = seen.points_m.iter().flat_map(row).collect();
-            Ok(Matrix::new(seen.points_m.len(), 3 * truth.len(), values)?)
+    /// What each cell shows, for every turn that cannot be seen.
+    fn matches(&self, view: &HandView) -> Result<Vec<Matched>, TrainError> {
+        let end_effector_from_view = view.view_from_end_effector.inverse();
+        let half_m = view.view.half_m;
+        let of = |twin: &Isometry3<f64>| {
+            let turned = (twin.inverse() * end_effector_from_view.isometry()).cast::<f32>();
+            let at = view.view.points_m.iter().map(|point| turned * Point3::from(*point));
+            let at: Vec<Point3<f32>> = at.collect();
+            let values = at.iter().flat_map(|at| [at.x / half_m, at.y / half_m, at.z / half_m]);
+            let points = Matrix::new(at.len(), 3, values.collect())?;
+            let parts = at.iter().map(|at| self.part(at)).collect();
+            Ok(Matched { parts, points })
         };
-        self.permutations.iter().map(of).collect()
+        self.twins.iter().map(of).collect()
+    }
+
+    /// The part that a point of the end-effector is of.
+    fn part(&self, at: &Point3<f32>) -> u32 {
+        let distances = self.parts.iter().map(|middle| (middle - at).norm_squared());
+        let nearest = distances.zip(0..).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(IGNORE, |(_, part)| part)
+    }
+
+    /// How far `found` is off, by the turn that cannot be seen which is nearest; of no pose, as far as the
+    /// end-effector is large.
+    fn off(&self, view: &HandView, found: Option<Transform<Link, EndEffector>>) -> Off {
+        let keypoints = self.hand.end_effector.keypoints(&view.joints);
+        let Some(found) = found else {
+            let far = 1e3 * self.hand.extent_m;
+            let keypoints_mm = vec![far; keypoints.len()];
+            return Off { keypoints_mm, rotation_deg: 180.0, translation_mm: far };
+        };
+        let of = |twin: &Isometry3<f64>| {
+            let truth = Transform::from_isometry(view.view_from_end_effector.isometry() * twin);
+            let off = |point| 1e3 * (found.point(point) - truth.point(point)).norm();
+            let (metres, radians) = found.distance_to(&truth);
+            Off {
+                keypoints_mm: keypoints.iter().map(off).collect(),
+                rotation_deg: radians.to_degrees(),
+                translation_mm: 1e3 * metres,
+            }
+        };
+        let sum = |off: &Off| off.keypoints_mm.iter().sum::<f64>();
+        let nearest = self.twins.iter().map(of).min_by(|a, b| sum(a).total_cmp(&sum(b)));
+        nearest.expect("the identity is among the turns")
     }
 }
 
@@ -90,14 +137,11 @@ impl Lesson for KeypointLesson {
     }
 
     fn description(&self) -> ModelDescription {
-        let keypoints = 0..self.hand.end_effector.fixed_keypoints().len();
-        let names =
-            keypoints.flat_map(|at| KEYPOINT_OUTPUTS.map(|what| format!("keypoint_{at}_{what}")));
         ModelDescription {
             voxel_m: None,
-            image_columns: Some(crate::pose::CELLS as u32),
+            image_columns: Some(CELLS as u32),
             features: VIEW_FEATURES.map(str::to_owned).to_vec(),
-            classes: names.collect(),
+            classes: keypoint_outputs(),
             frame: "view of the end-effector".into(),
             trained_on: self.trained_on.clone(),
             commit: String::new(),
@@ -110,13 +154,13 @@ impl Lesson for KeypointLesson {
         let views =
             (0..self.views).map(|view| self.hand.view(LEARN, step * self.views + view, false));
         let views = views.collect::<Result<Vec<_>, _>>()?;
-        let item = |view: &HandView| Ok((view.view.cells.len(), self.offsets(view)?));
+        let item = |view: &HandView| Ok((view.view.cells.len(), self.matches(view)?));
         let items = views.iter().map(item).collect::<Result<_, TrainError>>()?;
         let images: Vec<_> = views.iter().map(|view| &view.view).collect();
         Ok((view_batch(&self.graph, &images)?, KeypointTarget { items }))
     }
 
-    /// Of each item, that permutation counts which the votes are nearest to.
+    /// Of each item, that turn counts which the network is nearest to.
     fn loss(
         &self,
         outputs: &[Matrix],
@@ -125,10 +169,10 @@ impl Lesson for KeypointLesson {
         let (channels, count) = (outputs[0].channels(), target.items.len() as f64);
         let mut gradient = Matrix::zeros(outputs[0].rows(), channels);
         let (mut start, mut value) = (0, 0.0);
-        for (rows, permutations) in &target.items {
+        for (rows, twins) in &target.items {
             let range = start * channels..(start + rows) * channels;
-            let part = Matrix::new(*rows, channels, outputs[0].values()[range.clone()].to_vec())?;
-            let losses = permutations.iter().map(|offsets| laplace(&part, offsets, 3));
+            let part = &outputs[0].values()[range.clone()];
+            let losses = twins.iter().map(|matched| loss_of(part, channels, matched));
             let losses = losses.collect::<Result<Vec<_>, _>>()?;
             let best = losses.iter().min_by(|a, b| a.value.total_cmp(&b.value));
             let Some(best) = best else { continue };
@@ -145,40 +189,62 @@ impl Lesson for KeypointLesson {
         parameters: &Parameters,
         executor: &mut Cpu,
     ) -> Result<(BTreeMap<String, f64>, f64), TrainError> {
+        /// A keypoint nearer than this to its place is found (the paper's threshold), millimetres.
+        const FOUND_MM: f64 = 30.0;
         let held_out = self.held_out.views(&self.hand, VALIDATE, self.validation)?;
         let mut scores = BTreeMap::new();
         let mut value = 0.0;
-        for (name, true_labels) in [("true_labels", true), ("found_labels", false)] {
-            let (mut distances, mut four) = (Vec::new(), 0_u64);
-            for view in held_out[usize::from(!true_labels)].iter() {
+        for (name, views) in ["true_labels", "found_labels"].into_iter().zip(held_out) {
+            let mut offs = Vec::new();
+            for view in views {
                 let batch = view_batch(&self.graph, &[&view.view])?;
                 let outputs = executor.infer(&self.graph, parameters, &batch)?;
-                let rows: Vec<&[f32]> =
-                    (0..outputs[0].rows()).map(|row| outputs[0].row(row)).collect();
-                let found = keypoints_of(&view.view, &rows);
-                let truth = self.truth(view);
-                let view_from_camera = view.view.camera_from_view.inverse();
-                let off = |permutation: &Vec<usize>| {
-                    let pairs = found.iter().zip(permutation);
-                    let off = pairs.map(|(found, of)| {
-                        let at = view_from_camera.point(&found.point_in_camera);
-                        (at - truth[*of]).norm()
-                    });
-                    off.collect::<Vec<f64>>()
-                };
-                let all = self.permutations.iter().map(off);
-                let least = all.min_by(|a, b| a.iter().sum::<f64>().total_cmp(&b.iter().sum()));
-                distances.extend(least.unwrap_or_default());
-                let known = found.iter().filter(|found| found.sigma_m < FOUND_M).count();
-                four += u64::from(known >= 4);
+                let rows = (0..outputs[0].rows()).map(|row| outputs[0].row(row));
+                let found = matched_pose(&view.view, &rows.collect::<Vec<_>>());
+                offs.push(self.off(view, found.map(|(pose, _)| pose)));
             }
-            distances.sort_by(f64::total_cmp);
-            let mean = distances.iter().sum::<f64>() / distances.len().max(1) as f64;
-            scores.insert(format!("{name}_mean_mm"), 1e3 * mean);
-            scores.insert(format!("{name}_median_mm"), 1e3 * distances[distances.len() / 2]);
-            scores.insert(format!("{name}_four_found_share"), four as f64 / self.validation as f64);
-            value -= 1e3 * mean;
+            let keypoints: Vec<f64> =
+                offs.iter().flat_map(|off| off.keypoints_mm.clone()).collect();
+            let four = offs
+                .iter()
+                .filter(|off| off.keypoints_mm.iter().filter(|mm| **mm < FOUND_MM).count() >= 4);
+            let four = four.count() as f64 / offs.len() as f64;
+            let rotations: Vec<f64> = offs.iter().map(|off| off.rotation_deg).collect();
+            let translations: Vec<f64> = offs.iter().map(|off| off.translation_mm).collect();
+            for (what, values) in [
+                ("keypoints_mm", &keypoints),
+                ("rotation_deg", &rotations),
+                ("translation_mm", &translations),
+            ] {
+                let (mean, median) = mean_and_median(values);
+                scores.insert(format!("{name}_mean_{what}"), mean);
+                scores.insert(format!("{name}_median_{what}"), median);
+            }
+            scores.insert(format!("{name}_four_found_share"), four);
+            value -= mean_and_median(&keypoints).0;
         }
         Ok((scores, value))
     }
+}
+
+/// The loss of some rows of outputs: cross-entropy of the parts, likelihood of the points.
+fn loss_of(values: &[f32], channels: usize, matched: &Matched) -> Result<Loss, eyebolt_net::Error> {
+    let rows = values.len() / channels;
+    let columns = |from: usize, to: usize| {
+        let values = values.chunks_exact(channels).flat_map(|row| &row[from..to]).copied();
+        Matrix::new(rows, to - from, values.collect())
+    };
+    let parts = cross_entropy(&columns(0, PARTS)?, &matched.parts, IGNORE, None)?;
+    let points = laplace(&columns(PARTS, PARTS + POINT_OUTPUTS.len())?, &matched.points, 3)?;
+    let row = |row: usize| parts.gradient.row(row).iter().chain(points.gradient.row(row)).copied();
+    let gradient = Matrix::new(rows, channels, (0..rows).flat_map(row).collect())?;
+    Ok(Loss { value: parts.value + points.value, gradient })
+}
+
+/// Mean and median of values, of which there is one.
+pub fn mean_and_median(values: &[f64]) -> (f64, f64) {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN);
+    (sorted.iter().sum::<f64>() / sorted.len().max(1) as f64, median)
 }

@@ -1,7 +1,7 @@
 //! Which networks are taught, and how.
 
 use super::lesson::Plan;
-use crate::pose::VIEW_FEATURES;
+use crate::pose::{PARTS, POINT_OUTPUTS, VIEW_FEATURES};
 use crate::segment::{FEATURES, Grid};
 use eyebolt_net::Error;
 use eyebolt_net::models::{Head, MinkEncoder, MinkUNet};
@@ -87,13 +87,13 @@ impl Preset {
         }
     }
 
-    /// The network that votes for keypoints, with so many outputs.
+    /// The network that matches points.
     ///
     /// # Errors
     ///
     /// None, as the names are known.
-    pub fn keypoints(self, outputs: usize) -> Result<MinkUNet, Error> {
-        let net = MinkUNet::named("minkunet14a", VIEW_FEATURES.len(), outputs)?;
+    pub fn keypoints(self) -> Result<MinkUNet, Error> {
+        let net = MinkUNet::named("minkunet14a", VIEW_FEATURES.len(), PARTS + POINT_OUTPUTS.len())?;
         let channels = [32, 48, 64, 96, 64, 48, 32, 32];
         Ok(MinkUNet { channels, stem_channels: 16, stem_kernel: 3, flat: true, ..net })
     }

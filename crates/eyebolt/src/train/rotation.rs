@@ -2,6 +2,7 @@
 
 use super::error::TrainError;
 use super::hand::{Hand, HandView, HeldOut};
+use super::keypoints::mean_and_median;
 use super::lesson::Lesson;
 use crate::pose::{Decoder, QUATERNION, VIEW_FEATURES, view_batch};
 use eyebolt_net::losses::{Loss, PoseLoss, pose_loss, soft_cross_entropy};
@@ -169,14 +170,10 @@ impl Lesson for RotationLesson {
                 best.push(off.fold(f64::INFINITY, f64::min));
                 errors.push(self.error_deg(&modes[0].0, &truth));
             }
-            errors.sort_by(f64::total_cmp);
-            let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+            let (mean, median) = mean_and_median(&errors);
             scores.insert(format!("{name}_mean_deg"), mean);
-            scores.insert(format!("{name}_median_deg"), errors[errors.len() / 2]);
-            scores.insert(
-                format!("{name}_best_mode_mean_deg"),
-                best.iter().sum::<f64>() / best.len() as f64,
-            );
+            scores.insert(format!("{name}_median_deg"), median);
+            scores.insert(format!("{name}_best_mode_mean_deg"), mean_and_median(&best).0);
             value -= mean;
         }
         Ok((scores, value))

@@ -1,7 +1,7 @@
 //! What stands around an arm in an image to learn from.
 
 use crate::simulate::{Solid, clutter, room_of_any_size};
-use eyebolt_geometry::{Base, Camera, Link, Transform};
+use eyebolt_geometry::{Base, Link, Transform};
 use eyebolt_render::{Random, RayScene, SceneMesh};
 use eyebolt_robot::{Body, Shape};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
@@ -14,19 +14,21 @@ const TILTED: f64 = 0.12;
 /// How often there is no room around at all: beyond the range of the camera.
 const NO_ROOM: f64 = 0.06;
 
-/// Everything around an arm whose camera is at `base_from_camera`.
-pub fn scenery(random: Random, base_from_camera: &Transform<Base, Camera>) -> RayScene {
+/// Everything around arms that cameras at `eyes` (base frame, metres) look at: no wall is before one of
+/// them, and nothing close to it.
+pub fn scenery(random: Random, eyes: &[Point3<f64>]) -> RayScene {
     let mut style = random.at(0);
     let base_from_world = mounting(&mut style);
-    let eye = base_from_world.inverse().point(&Point3::from(base_from_camera.translation_m()));
+    let world_from_base = base_from_world.inverse();
+    let eyes: Vec<Point3<f64>> = eyes.iter().map(|eye| world_from_base.point(eye)).collect();
     let mut solids = Vec::new();
     if style.uniform() >= NO_ROOM {
-        solids = room_of_any_size(&mut style, &eye);
+        solids = room_of_any_size(&mut style, &eyes);
         if style.uniform() < 0.3 {
             solids.retain(|solid| solid.name != "table" && solid.name != "leg");
         }
     }
-    let raised = base_from_world.inverse().point(&Point3::origin()).z;
+    let raised = world_from_base.point(&Point3::origin()).z;
     if raised > 0.02 {
         solids.push(pedestal(&mut style, raised));
     }
@@ -35,7 +37,9 @@ pub fn scenery(random: Random, base_from_camera: &Transform<Base, Camera>) -> Ra
     let floating = style.index(4);
     solids.extend((0..floating as u64).map(|thing| debris(&mut random.at(2).at(thing))));
     let clear = |solid: &&Solid| {
-        let near = |vertex: &Point3<f32>| (vertex.cast::<f64>() - eye).norm() < 0.35;
+        let near = |vertex: &Point3<f32>| {
+            eyes.iter().any(|eye| (vertex.cast::<f64>() - eye).norm() < 0.35)
+        };
         !solid.mesh.vertices.iter().any(near)
     };
     let meshes: Vec<SceneMesh<'_>> = solids

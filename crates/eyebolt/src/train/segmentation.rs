@@ -4,7 +4,7 @@ use super::error::TrainError;
 use super::lesson::Lesson;
 use super::scores::Confusion;
 use super::shot::{Cast, Framing, IGNORE, Shot};
-use crate::segment::{END_EFFECTOR, FEATURES, Grid, Thinned};
+use crate::segment::{ARM, END_EFFECTOR, FEATURES, Grid, Thinned};
 use eyebolt_net::losses::{Loss, cross_entropy, lovasz_softmax};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
@@ -64,25 +64,24 @@ impl SegmentationLesson {
         })
     }
 
-    fn shot(&self, stream: u64, index: u64) -> Result<Shot, TrainError> {
+    fn shots(&self, stream: u64, step: u64) -> Result<Vec<Shot>, TrainError> {
         let framing = Framing { columns: self.grid.columns(), ..Framing::ARM };
-        let mut shot = self.cast.shot(Random::new(self.seed).at(stream).at(index), framing)?;
+        let random = Random::new(self.seed).at(stream).at(step);
+        let mut shots = self.cast.shots(random, self.images, framing)?;
         if self.classes.len() < 3 {
-            shot.label
-                .iter_mut()
-                .filter(|label| **label == END_EFFECTOR)
-                .for_each(|label| *label = 1);
+            let labels = shots.iter_mut().flat_map(|shot| &mut shot.label);
+            labels.filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);
         }
-        Ok(shot)
+        Ok(shots)
     }
 
     fn held_out(&self) -> Result<&[Shot], TrainError> {
         if let Some(shots) = self.held_out.get() {
             return Ok(shots);
         }
-        let shots = (0..self.validation).map(|index| self.shot(VALIDATE, index));
-        let shots = shots.collect::<Result<Vec<_>, _>>()?;
-        Ok(self.held_out.get_or_init(|| shots))
+        let steps = 0..self.validation.div_ceil(self.images);
+        let shots = steps.map(|step| self.shots(VALIDATE, step)).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.held_out.get_or_init(|| shots.into_iter().flatten().collect()))
     }
 
     /// Images as the network takes them, and the labels of its rows.
@@ -125,8 +124,7 @@ impl Lesson for SegmentationLesson {
     }
 
     fn batch(&self, step: u64) -> Result<(Batch, Vec<u32>), TrainError> {
-        let shots = (0..self.images).map(|image| self.shot(LEARN, step * self.images + image));
-        self.batch_of(&shots.collect::<Result<Vec<_>, _>>()?)
+        self.batch_of(&self.shots(LEARN, step)?)
     }
 
     fn loss(&self, outputs: &[Matrix], labels: &Vec<u32>) -> Result<Vec<Loss>, eyebolt_net::Error> {

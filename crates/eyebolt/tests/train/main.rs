@@ -1,0 +1,5 @@
+//! Networks while they are taught.
+
+mod learning;
+mod runs;
+mod small;

@@ -1,0 +1,93 @@
+//! A small lesson, and a keeper that keeps everything in memory.
+
+use eyebolt::progress::{Cancelled, Progress};
+use eyebolt::robots::BuiltIn;
+use eyebolt::segment::Grid;
+use eyebolt::train::{
+    Actor, Cast, Keep, Lesson, Plan, Preset, Report, SegmentationLesson, TrainError,
+};
+use eyebolt_net::losses::Loss;
+use eyebolt_net::models::{MinkUNet, ModelDescription};
+use eyebolt_net::{Batch, Cpu, Graph, Matrix, Parameters};
+use eyebolt_registration::LinkCache;
+use std::collections::BTreeMap;
+
+/// The segmentation of the built-in robot on images of 64 columns, by few channels.
+pub fn lesson() -> SegmentationLesson {
+    let arm = BuiltIn::named("shackle").unwrap().arm();
+    let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-test-links"));
+    let cast = Cast::Known(vec![Actor::new(arm, &cache).unwrap()]);
+    let net = Preset::Default.segmentation(3).unwrap();
+    let net = MinkUNet { channels: [16, 16, 32, 32, 32, 16, 16, 16], stem_channels: 8, ..net };
+    let mut lesson = SegmentationLesson::new(cast, Grid::Image { columns: 64 }, net, 5).unwrap();
+    lesson.validation = 8;
+    lesson
+}
+
+/// A plan of so many steps, with a validation after every `every`.
+pub fn plan(steps: u64, every: u64) -> Plan {
+    Plan { every, patience: 1000, ..Preset::Default.plan(steps, 7, 1) }
+}
+
+/// Keeps everything; ends the run after so many checkpoints.
+#[derive(Default)]
+pub struct Memory {
+    pub reports: Vec<Report>,
+    pub checkpoints: Vec<Vec<u8>>,
+}
+
+impl Keep for Memory {
+    fn report(&mut self, report: &Report) -> Result<(), TrainError> {
+        self.reports.push(report.clone());
+        Ok(())
+    }
+
+    fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), TrainError> {
+        self.checkpoints.push(bytes.to_vec());
+        Ok(())
+    }
+}
+
+/// Says nothing, and ends the work after step `.0`.
+pub struct Until(pub usize);
+
+impl Progress for Until {
+    fn begin(&self, _: &'static str) -> Result<(), Cancelled> {
+        Ok(())
+    }
+
+    fn advance(&self, done: usize, _: usize) -> Result<(), Cancelled> {
+        if done > self.0 { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+/// A lesson that has the batches of two steps and no others, in turn.
+pub struct Repeated(pub SegmentationLesson);
+
+impl Lesson for Repeated {
+    type Target = Vec<u32>;
+
+    fn graph(&self) -> &Graph {
+        self.0.graph()
+    }
+
+    fn description(&self) -> ModelDescription {
+        self.0.description()
+    }
+
+    fn batch(&self, step: u64) -> Result<(Batch, Vec<u32>), TrainError> {
+        self.0.batch(step % 2)
+    }
+
+    fn loss(&self, outputs: &[Matrix], target: &Vec<u32>) -> Result<Vec<Loss>, eyebolt_net::Error> {
+        self.0.loss(outputs, target)
+    }
+
+    fn validate(
+        &self,
+        _: &Parameters,
+        _: &mut Cpu,
+    ) -> Result<(BTreeMap<String, f64>, f64), TrainError> {
+        Ok((BTreeMap::new(), 0.0))
+    }
+}
