@@ -8,6 +8,7 @@ mod evaluate;
 mod export;
 mod info;
 mod inputs;
+mod label;
 mod logging;
 mod names;
 mod output;
@@ -62,6 +63,12 @@ enum Command {
     /// Half of the sessions are spoiled by one thing each. A trusted answer should be within 10 mm and
     /// 0.6 degrees of the truth, and within what it expects itself.
     Study(study::Arguments),
+    /// Label every frame of recordings, for networks to learn from: arm, end-effector, keypoints, pose
+    ///
+    /// Each recording is calibrated from nothing, or by --calibration, and every frame at rest is labelled
+    /// and put into a folder that NumPy opens. What is there already is not labelled again, and several
+    /// machines may fill one folder, each a shard.
+    Label(Box<label::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
 }
@@ -77,6 +84,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Label(arguments) => label::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };
     match ending {
