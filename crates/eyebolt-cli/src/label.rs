@@ -1,63 +1,19 @@
 //! `eyebolt label`.
 
+mod arguments;
 mod calibrated;
 mod one;
 mod told;
 
 use crate::ending::Ending;
-use crate::inputs::{BagArguments, CacheArguments, RobotArguments, use_threads};
+use crate::inputs::use_threads;
 use crate::output;
 use anyhow::{Result, bail};
-use eyebolt::dataset::{Merged, Shard, merge};
+pub use arguments::Arguments;
+use eyebolt::dataset::{Merged, merge};
 use one::Labelling;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use told::Told;
-
-/// Options of `eyebolt label`.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {
-    /// Recordings: folders with a recording.toml, or bags
-    #[arg(required_unless_present = "merge")]
-    recordings: Vec<PathBuf>,
-    /// Folder of the data set; frames are added to those of a data set that is there
-    #[arg(short, long, value_name = "FOLDER", required_unless_present = "merge")]
-    output: Option<PathBuf>,
-    /// Label by this calibration, of the same camera in the same place; otherwise each recording is
-    /// calibrated from nothing, and not labelled if that is refused
-    #[arg(long, value_name = "JSON")]
-    calibration: Option<PathBuf>,
-    /// Draw each frame that is labelled, with classes, box and keypoints, as PNG files in this folder
-    #[arg(long, value_name = "FOLDER")]
-    check: Option<PathBuf>,
-    /// Label only shard I of N, counted from 0, of the frames of all recordings: one for each machine
-    #[arg(long, value_name = "I/N")]
-    shard: Option<Shard>,
-    /// Join the shards in this folder, if all of them are there, into one data set
-    #[arg(
-        long,
-        value_name = "FOLDER",
-        conflicts_with_all = ["recordings", "output", "calibration", "check", "shard"]
-    )]
-    merge: Option<PathBuf>,
-    #[command(flatten)]
-    robot: RobotArguments,
-    /// Find the arm's pixels without the recordings' masks
-    #[arg(long)]
-    no_masks: bool,
-    /// Seed of the search; the same seed gives the same bytes on any number of threads
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Threads to use; otherwise one for each core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// Say what was labelled as JSON, a line for each recording
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    cache: CacheArguments,
-    #[command(flatten)]
-    bag: BagArguments,
-}
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {

@@ -201,12 +201,18 @@ impl Counts {
         let percent = |count: usize, of: usize| 100.0 * count as f64 / of.max(1) as f64;
         let wrong = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)]
             .map(|(truth, label)| format!("{:9.3}", percent(self.0[truth][label], labelled)));
+        let robot = |row: &[usize; 4]| row[1] + row[2];
+        let robot_right = robot(&self.0[1]) + robot(&self.0[2]);
+        let said_robot = robot_right + robot(&self.0[0]);
+        let is_robot = robot_right + self.0[1][0] + self.0[2][0];
         let ignored_of = |class: usize| percent(self.0[class][3], self.0[class].iter().sum());
         format!(
-            "{:7.3}   {:7.3}   {}   ignored of rest, arm, hand {:.1} {:.1} {:.1}",
+            "{:7.3}   {:7.3}   {}   robot precision {:.2}, recall {:.2}; ignored of rest, arm, hand {:.1} {:.1} {:.1}",
             percent(right, labelled),
             percent(ignored, all),
             wrong.join(" "),
+            percent(robot_right, said_robot),
+            percent(robot_right, is_robot),
             ignored_of(0),
             ignored_of(1),
             ignored_of(2)

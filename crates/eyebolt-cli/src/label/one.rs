@@ -1,6 +1,6 @@
 //! One recording into the data set.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::calibrated::{Known, from_nothing, given};
 use super::told::{Labelled, Told};
 use crate::calibrate;

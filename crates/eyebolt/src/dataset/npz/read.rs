@@ -1,6 +1,6 @@
 //! An archive in. Nothing is taken at its word: every place, length and checksum is checked.
 
-use super::{CENTRAL, CENTRAL_BYTES, END, END_BYTES, LOCAL, LOCAL_BYTES};
+use super::parts::{CENTRAL, CENTRAL_BYTES, END, END_BYTES, LOCAL, LOCAL_BYTES};
 use crate::dataset::error::DatasetError;
 use eyebolt_recording::{Dtype, Npy, Number};
 use std::collections::BTreeMap;

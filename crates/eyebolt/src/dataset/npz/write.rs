@@ -1,6 +1,6 @@
 //! An archive out.
 
-use super::{CENTRAL, END, LOCAL};
+use super::parts::{CENTRAL, END, LOCAL};
 use eyebolt_recording::write_npy;
 
 /// An array by its name.

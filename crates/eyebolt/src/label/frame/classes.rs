@@ -10,7 +10,7 @@ use eyebolt_render::Raster;
 
 /// Poses, joints and shapes are off by about a pixel: nearer to an outline it is not known on which
 /// side of it a pixel is.
-const EDGE_PX: f32 = 1.5;
+const EDGE_PX: f32 = 1.0;
 /// What is this near to the arm without being of it may be mounted on it, metres.
 const MOUNTED_M: f32 = 0.10;
 
