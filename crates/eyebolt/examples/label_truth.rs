@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! cargo run --release -p eyebolt --example label_truth -- [--robot shackle] [--sensor NAME] [--seeds 2]
-//!     [--frames 3] [FOLDER...]
+//!     [--frames 3] [--joint-offset-sigma-deg 0] [--depth-scale 1] [FOLDER...]
 //! ```
 //!
 //! Each recording is calibrated from nothing, and then every frame labelled. Without a folder, arms are
@@ -57,6 +57,12 @@ fn main() -> Result<(), Failure> {
 
 fn simulated(flags: &BTreeMap<String, String>) -> Result<(), Failure> {
     let number = |name: &str, default: usize| flags.get(name).map_or(Ok(default), |n| n.parse());
+    let real = |name: &str, default: f64| flags.get(name).map_or(Ok(default), |n| n.parse());
+    let faults = Faults {
+        joint_offset_sigma: real("joint-offset-sigma-deg", 0.0)?.to_radians(),
+        depth_scale: real("depth-scale", 1.0)?,
+        ..Faults::default()
+    };
     let robot = flags.get("robot").map_or("shackle", String::as_str);
     let robot = BuiltIn::named(robot).ok_or("no such robot")?;
     let only = flags.get("sensor");
@@ -75,7 +81,7 @@ fn simulated(flags: &BTreeMap<String, String>) -> Result<(), Failure> {
                     moving_frames: 0,
                     backgrounds,
                     clutter: 8,
-                    faults: Faults::default(),
+                    faults,
                     seed: seed as u64,
                 };
                 let name = format!("{} {} {seed} {backgrounds} empty", robot.name, sensor.name);

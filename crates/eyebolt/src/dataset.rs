@@ -37,7 +37,7 @@ pub use applied::start;
 pub use classes::{code, label};
 pub use description::{Classes, Description, KeypointDescription, RobotDescription, SCHEMA};
 pub use error::DatasetError;
-pub use fill::{FillError, Filled, fill};
+pub use fill::{FillError, Filled, Look, fill};
 pub use frame::DatasetFrame;
 pub use index::{FileLine, FrameKey, IndexLine, PixelCounts};
 pub use merge::{Merged, merge};

@@ -20,6 +20,9 @@ pub struct Arguments {
     /// Draw each frame that is labelled, with classes, box and keypoints, as PNG files in this folder
     #[arg(long, value_name = "FOLDER")]
     pub check: Option<PathBuf>,
+    /// Replace pictures that exist; labelled frames are never replaced
+    #[arg(long)]
+    pub force: bool,
     /// Label only shard I of N, counted from 0, of the frames of all recordings: one for each machine
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,

@@ -8,8 +8,7 @@ use crate::output;
 use crate::progress::Counting;
 use anyhow::{Context, Result, bail};
 use eyebolt::dataset::{
-    Calibrated, DatasetError, DatasetFrame, Description, FillError, LabelRun, RecordingEntry,
-    Shard, Store, fill,
+    Calibrated, DatasetFrame, Description, FillError, LabelRun, RecordingEntry, Shard, Store, fill,
 };
 use eyebolt::end_effector::EndEffector;
 use eyebolt::export::SavedCalibration;
@@ -70,7 +69,9 @@ impl<'a> Labelling<'a> {
         let parts = (&known.observations, &options);
         let run = LabelRun::new(source, parts, (&arm, &end_effector), &saved)?;
         store.begin(&entry, &known.json)?;
-        let look = |file: &str, frame: &DatasetFrame| self.draw(file, frame, &end_effector);
+        let look = |file: &str, frame: &DatasetFrame| {
+            self.draw(file, frame, &end_effector).map_err(Into::into)
+        };
         let bar = Counting::new()?;
         let filled = fill(&mut store, &entry, (source, &arm), &run, &look, &bar);
         drop(bar);
@@ -98,20 +99,12 @@ impl<'a> Labelling<'a> {
     }
 
     /// Draws a frame, if anybody wants that.
-    fn draw(
-        &self,
-        file: &str,
-        frame: &DatasetFrame,
-        end_effector: &EndEffector,
-    ) -> Result<(), DatasetError> {
+    fn draw(&self, file: &str, frame: &DatasetFrame, end_effector: &EndEffector) -> Result<()> {
         let Some(folder) = &self.arguments.check else { return Ok(()) };
         let name = file.replace('/', "_").replace(".npz", ".png");
         let path = folder.join(name.trim_start_matches("frames_"));
         let bytes = labelled(frame, end_effector).encode_png();
-        output::write_whole(&path, &bytes, true).map_err(|_| DatasetError::Write {
-            file: path.display().to_string(),
-            cause: std::io::ErrorKind::Other,
-        })
+        output::write_whole(&path, &bytes, self.arguments.force)
     }
 }
 
@@ -139,6 +132,7 @@ fn named(error: FillError, path: &Path) -> anyhow::Error {
     match error {
         FillError::Record(error) => calibrate::named(Failure::Record(error), path),
         FillError::Dataset(error) => error.into(),
+        FillError::Look(error) => anyhow::anyhow!("{error}"),
         FillError::Cancelled(_) => anyhow::anyhow!(
             "{}: ended before all frames were labelled. Run it again to go on",
             path.display()

@@ -11,6 +11,7 @@ use crate::record::RecordError;
 use eyebolt_recording::FrameSource;
 use eyebolt_robot::{Arm, JointPositions};
 use rayon::prelude::*;
+use std::error::Error;
 
 /// Why the frames of a recording could not be put into a data set.
 #[derive(Debug, thiserror::Error)]
@@ -21,10 +22,17 @@ pub enum FillError {
     /// The data set cannot be read or written.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
+    /// Whoever looks at the frames could not.
+    #[error("{0}")]
+    Look(Box<dyn Error + Send + Sync>),
     /// Whoever hears of the progress ended it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+/// Sees each frame that is labelled, and the name of its file.
+pub type Look<'a> =
+    dyn Fn(&str, &DatasetFrame) -> Result<(), Box<dyn Error + Send + Sync>> + Sync + 'a;
 
 /// What became of the frames of a recording that are in this shard.
 #[derive(Clone, Debug, Default)]
@@ -50,7 +58,7 @@ pub fn fill(
     recording: &RecordingEntry,
     (source, arm): (&dyn FrameSource, &Arm),
     run: &LabelRun<'_>,
-    look: &(dyn Fn(&str, &DatasetFrame) -> Result<(), DatasetError> + Sync),
+    look: &Look<'_>,
     progress: &dyn Progress,
 ) -> Result<Filled, FillError> {
     let taken = |number: &usize| store.shard().takes(&recording.id, *number);
@@ -72,7 +80,7 @@ pub fn fill(
                 return Ok((IndexLine { key, frame, labelled: None, left_out }, false));
             }
         };
-        look(&recording.frame_file(*number, name), &labelled)?;
+        look(&recording.frame_file(*number, name), &labelled).map_err(FillError::Look)?;
         Ok((store.put(recording, *number, name, &labelled)?, false))
     };
     for batch in numbers.chunks(BATCH) {

@@ -4,8 +4,8 @@ use crate::stage::{ARM, CACHE, planned, preset, small};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::Verdict;
 use eyebolt::dataset::{
-    Calibrated, Dataset, DatasetError, DatasetFrame, Description, FillError, Filled, LabelRun,
-    RecordingEntry, Shard, Store, fill,
+    Calibrated, Dataset, Description, FillError, Filled, LabelRun, RecordingEntry, Shard, Store,
+    fill,
 };
 use eyebolt::end_effector::EndEffector;
 use eyebolt::export::SavedCalibration;
@@ -73,8 +73,8 @@ impl Calibration {
         let mut store = Store::open(folder, Description::new(&ARM, &HAND), shard)?;
         let entry = self.entry();
         store.begin(&entry, &self.json)?;
-        let look = |_: &str, _: &DatasetFrame| -> Result<(), DatasetError> { Ok(()) };
-        fill(&mut store, &entry, (&self.source, &ARM), &self.run(&self.source), &look, &())
+        let run = self.run(&self.source);
+        fill(&mut store, &entry, (&self.source, &ARM), &run, &|_, _| Ok(()), &())
     }
 }
 

@@ -45,11 +45,10 @@ fn assert_right(made: &Calibration, name: &str) {
 }
 
 #[test]
-fn every_camera_with_and_without_frames_of_the_background() {
-    for sensor in Sensor::ALL {
-        for backgrounds in [2, 0] {
-            assert_right(&Calibration::of(scenario(sensor, backgrounds)), sensor.name);
-        }
+fn every_camera_some_with_frames_of_the_background() {
+    for (number, sensor) in Sensor::ALL.into_iter().enumerate() {
+        let backgrounds = 2 * (number % 2);
+        assert_right(&Calibration::of(scenario(sensor, backgrounds)), sensor.name);
     }
 }
 
