@@ -64,11 +64,10 @@ impl<'a> Labelling<'a> {
         };
         entry.calibrated = known.calibrated;
         let file = self.calibration.as_ref().map_or(entry.calibration.as_str(), |(name, _)| name);
-        let saved = SavedCalibration::parse(file, &known.json)?;
-        check_base(&saved, &arm)?;
+        check_base(&SavedCalibration::parse(file, &known.json)?, &arm)?;
+        let saved = SavedCalibration::parse(file, &store.begin(&entry, &known.json)?)?;
         let parts = (&known.observations, &options);
         let run = LabelRun::new(source, parts, (&arm, &end_effector), &saved)?;
-        store.begin(&entry, &known.json)?;
         let look = |file: &str, frame: &DatasetFrame| {
             self.draw(file, frame, &end_effector).map_err(Into::into)
         };
@@ -89,10 +88,12 @@ impl<'a> Labelling<'a> {
     ) -> Result<Result<Known, Vec<String>>> {
         let before = store.known(&entry.id)?;
         let (json, calibrated) = match (before, &self.calibration) {
-            // Whether it is the same one is for the store to say.
-            (Some((before, _)), Some((_, json))) => (json.clone(), before.calibrated),
-            (Some((before, json)), None) => (json, before.calibrated),
-            (None, Some((_, json))) => (json.clone(), Calibrated::Given),
+            (Some((before, there)), Some((_, json))) if there == *json => {
+                (there, before.calibrated)
+            }
+            // That it is another one is for the store to say.
+            (_, Some((_, json))) => (json.clone(), Calibrated::Given),
+            (Some((before, there)), None) => (there, before.calibrated),
             (None, None) => return from_nothing(request, path),
         };
         given(request, path, json, calibrated).map(Ok)

@@ -19,6 +19,12 @@ pub(super) const FILE: &str = "dataset.toml";
 pub struct Description {
     /// [`SCHEMA`].
     pub schema: String,
+    /// How to read the transforms.
+    pub convention: String,
+    /// Of all numbers whose names do not say theirs.
+    pub units: String,
+    /// Where source and calibration of each recording are told.
+    pub recordings: String,
     /// The robot in all frames.
     pub robot: RobotDescription,
     /// Values of the array `label`.
@@ -77,6 +83,9 @@ impl Description {
         let joints = end_effector.joint_names().into_iter().map(str::to_owned).collect();
         Self {
             schema: SCHEMA.to_owned(),
+            convention: CONVENTION.to_owned(),
+            units: "metres, radians, pixels".to_owned(),
+            recordings: "recordings/*.toml".to_owned(),
             robot: RobotDescription {
                 name: robot.name.clone(),
                 urdf_hash: robot.urdf_hash().to_owned(),
@@ -129,12 +138,9 @@ impl Description {
 
     /// Writes it to `folder`, unless the data set there is described so already.
     pub(super) fn write(&self, folder: &Path) -> Result<(), DatasetError> {
-        let path = folder.join(FILE);
-        if path.exists() {
-            return self.check_there(folder);
-        }
         let body = toml::to_string(self).expect("a description is plain data");
-        write_once(&path, format!("{HEAD}{body}").as_bytes(), || self.another(&path, "text"))
+        write_once(&folder.join(FILE), format!("{HEAD}{body}").as_bytes())?;
+        self.check_there(folder)
     }
 
     /// Refuses `there`, a data set of something else.
@@ -168,6 +174,9 @@ const CLASSES: Classes = Classes {
     end_effector: code(Label::EndEffector),
     ignore: code(Label::Ignore),
 };
+
+const CONVENTION: &str = "a_from_b maps coordinates in b to coordinates in a; camera is the optical frame of \
+                          the images: x right, y down, z forward";
 
 /// What people need who open the files with NumPy alone.
 const HEAD: &str = "\

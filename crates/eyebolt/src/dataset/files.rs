@@ -2,8 +2,9 @@
 
 use super::error::DatasetError;
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Component, Path};
+use tempfile::NamedTempFile;
 
 /// Largest frame, bytes: depth and labels of 50 million pixels.
 pub(super) const MOST_FRAME_BYTES: u64 = 512 << 20;
@@ -38,34 +39,36 @@ pub(super) fn read_text(path: &Path, remedy: &str) -> Result<String, DatasetErro
 /// Writes beside `path`, then renames: readers see the old file or the new one, whole. The folder is
 /// made if need be.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
-    let written = || -> std::io::Result<()> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder)?;
-        let mut builder = tempfile::Builder::new();
-        // Temporary files are private by default, and data sets are for others.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(path)?;
-        Ok(())
-    };
-    written().map_err(|error| DatasetError::write(path, &error))
+    let written = beside(path, bytes).and_then(|file| Ok(file.persist(path).map(drop)?));
+    written.map_err(|error| DatasetError::write(path, &error))
 }
 
-/// As [`write_whole`], unless the file is there already and says just that; `differs` is the error if
-/// it says something else.
-pub(super) fn write_once(
-    path: &Path,
-    bytes: &[u8],
-    differs: impl FnOnce() -> DatasetError,
-) -> Result<(), DatasetError> {
-    match std::fs::read(path) {
-        Ok(there) if there == bytes => Ok(()),
-        Ok(_) => Err(differs()),
-        Err(_) => write_whole(path, bytes),
+/// As [`write_whole`], unless there is a file: of several machines that write at the same time, one
+/// does. What is there afterwards.
+pub(super) fn write_once(path: &Path, bytes: &[u8]) -> Result<Vec<u8>, DatasetError> {
+    if !path.exists() {
+        let file = beside(path, bytes).map_err(|error| DatasetError::write(path, &error))?;
+        match file.persist_noclobber(path).map_err(|error| error.error) {
+            Ok(_) => return Ok(bytes.to_vec()),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(DatasetError::write(path, &error)),
+        }
     }
+    read(path, MOST_TEXT_BYTES, "Check that the file may be read")
+}
+
+/// A temporary file of these bytes in the folder of `path`.
+fn beside(path: &Path, bytes: &[u8]) -> std::io::Result<NamedTempFile> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)?;
+    let mut builder = tempfile::Builder::new();
+    // Temporary files are private by default, and data sets are for others.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file)
 }
 
 /// Refuses a `file`, named by the one at `path`, that does not lie in the data set.

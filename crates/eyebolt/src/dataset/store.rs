@@ -5,7 +5,7 @@ use super::error::DatasetError;
 use super::files::{MOST_FRAME_BYTES, read, read_text, write_once, write_whole};
 use super::frame::DatasetFrame;
 use super::index::{self, FileLine, FrameKey, Index, IndexLine};
-use super::recording::RecordingEntry;
+use super::recording::{Calibrated, RecordingEntry};
 use super::shard::Shard;
 use std::path::{Path, PathBuf};
 
@@ -58,26 +58,41 @@ impl Store {
         Ok(Some((entry, read_text(&calibration, remedy)?)))
     }
 
-    /// Tells of a recording before its frames come: what it is and its calibration, as JSON.
+    /// Tells of a recording before its frames come: what it is and its calibration, as JSON. The
+    /// calibration that its frames are to be labelled by: if several machines found one each from
+    /// nothing, that of the first.
     ///
     /// # Errors
     ///
-    /// The data set has it by another calibration or with other options, or files that cannot be
-    /// written.
-    pub fn begin(&self, recording: &RecordingEntry, calibration: &str) -> Result<(), DatasetError> {
+    /// The data set has it by another calibration that was given, or with other options, or files
+    /// that cannot be written.
+    pub fn begin(
+        &self,
+        recording: &RecordingEntry,
+        calibration: &str,
+    ) -> Result<String, DatasetError> {
         self.description.write(&self.folder)?;
         let differs = |path: &Path, field: &str, problem: &str| {
             let remedy = "Write to another folder, or remove this recording's files first";
             DatasetError::invalid(path, field, problem, remedy)
         };
         let path = self.folder.join(&recording.calibration);
-        let other = || differs(&path, "calibration", "frames are labelled by another one already");
-        write_once(&path, calibration.as_bytes(), other)?;
+        let there = write_once(&path, calibration.as_bytes())?;
+        let is_found = recording.calibrated == Calibrated::FromNothing;
+        if there != calibration.as_bytes() && !is_found {
+            return Err(differs(
+                &path,
+                "calibration",
+                "frames are labelled by another one already",
+            ));
+        }
         let path = self.folder.join(format!("recordings/{}.toml", recording.id));
         let text = toml::to_string(recording).expect("an entry is plain data");
-        write_once(&path, text.as_bytes(), || {
-            differs(&path, "masks", "frames are labelled with other options already")
-        })
+        if write_once(&path, text.as_bytes())? != text.as_bytes() {
+            return Err(differs(&path, "masks", "frames are labelled with other options already"));
+        }
+        String::from_utf8(there)
+            .map_err(|_| differs(&path, "calibration", "the calibration is no text"))
     }
 
     /// What is known of a frame: its line in the index, or, after a run that was ended, its file.

@@ -1,7 +1,9 @@
 //! One run, several, interrupted ones and many machines: the same bytes.
 
-use crate::made::{KINECT, labelled};
-use eyebolt::dataset::{Shard, merge};
+use crate::made::{Calibration, KINECT, labelled, scenario};
+use eyebolt::dataset::{Dataset, Shard, merge};
+use eyebolt::simulate::Scenario;
+use eyebolt_render::Sensor;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -78,4 +80,18 @@ fn incomplete_shards_are_not_merged() {
     merge(folder.path()).unwrap();
     let error = merge(folder.path()).unwrap_err().to_string();
     assert!(error.contains("no indices of shards"), "{error}");
+}
+
+#[test]
+fn recordings_of_one_robot_share_a_data_set() {
+    let (folder, _) = labelled();
+    let before = content(folder.path());
+    let other = Calibration::of(Scenario { seed: 4, ..scenario(Sensor::KINECT_V1, 2) });
+    other.label(folder.path(), Shard::WHOLE).unwrap();
+    let after = content(folder.path());
+    let kept = before.iter().filter(|(name, _)| *name != "index.jsonl");
+    assert!(kept.clone().all(|(name, bytes)| after.get(name) == Some(bytes)));
+    let dataset = Dataset::open(folder.path()).unwrap();
+    assert_eq!(dataset.frames().len(), 8);
+    assert_ne!(dataset.frames()[0].recording, dataset.frames()[7].recording);
 }

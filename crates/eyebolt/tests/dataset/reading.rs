@@ -2,7 +2,9 @@
 
 use crate::made::{KINECT, labelled};
 use crate::stage::ARM;
-use eyebolt::dataset::{Dataset, DatasetFrame, Description, Shard, Store};
+use eyebolt::dataset::{
+    Calibrated, Dataset, DatasetFrame, Description, RecordingEntry, Shard, Store,
+};
 use eyebolt::end_effector::EndEffector;
 use eyebolt::robots::BuiltIn;
 use std::path::Path;
@@ -65,8 +67,13 @@ fn another_calibration_of_the_same_recording() {
     let (folder, _) = labelled();
     let hand = EndEffector::of(&ARM).unwrap();
     let store = Store::open(folder.path(), Description::new(&ARM, &hand), Shard::WHOLE).unwrap();
-    let error = store.begin(&KINECT.entry(), "{}").unwrap_err();
+    let given = RecordingEntry { calibrated: Calibrated::Given, ..KINECT.entry() };
+    let error = store.begin(&given, "{}").unwrap_err();
     assert_says(error, &["calibration.json", "another one already", "another folder"]);
+    // Of machines that find slightly different ones at the same time, the first counts.
+    assert_eq!(store.begin(&KINECT.entry(), "{}").unwrap(), KINECT.json);
+    let masked = RecordingEntry { masks: true, ..KINECT.entry() };
+    assert_says(store.begin(&masked, &KINECT.json).unwrap_err(), &["masks", "other options"]);
 }
 
 #[test]
