@@ -3,7 +3,7 @@
 use crate::made::{KINECT, labelled};
 use crate::stage::ARM;
 use eyebolt::dataset::{
-    Calibrated, Dataset, DatasetFrame, Description, RecordingEntry, Shard, Store,
+    Calibrated, Dataset, DatasetFrame, Description, RecordingEntry, Shard, Store, code,
 };
 use eyebolt::end_effector::EndEffector;
 use eyebolt::robots::BuiltIn;
@@ -168,4 +168,29 @@ fn numbers_that_cannot_be() {
         assert_says(&error, &["Remove the file and label the recording again"]);
     }
     spoilt(|_| {}).unwrap();
+}
+
+/// Made by `fuzz/make_seeds.py` with `numpy.savez`, which numbers in its local headers another way.
+#[test]
+fn a_frame_that_numpy_saved() {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/dataset");
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["dataset.toml", "frame.npz"] {
+        std::fs::copy(seeds.join(name), folder.path().join(name)).unwrap();
+    }
+    let bytes = std::fs::metadata(seeds.join("frame.npz")).unwrap().len();
+    let pixels = r#"{"background":0,"arm":0,"end_effector":0,"ignore":0,"no_depth":0}"#;
+    let line = format!(
+        r#"{{"recording":"a","number":0,"frame":"0","file":"frame.npz","bytes":{bytes},"pixels":{pixels},"keypoints_seen":[]}}"#
+    );
+    std::fs::write(folder.path().join("index.jsonl"), line).unwrap();
+    let dataset = Dataset::open(folder.path()).unwrap();
+    let frame = dataset.read(&dataset.frames()[0]).unwrap();
+    assert_eq!((frame.depth.width(), frame.depth.height()), (8, 6));
+    assert_eq!((frame.depth.at(0, 0), frame.depth.at(7, 5)), (0.5, 1.5));
+    let codes: Vec<u8> = frame.labels.iter().map(|label| code(*label)).collect();
+    assert_eq!(codes[..4], [0, 1, 2, 0]);
+    assert_eq!(frame.keypoints[..6], [0, 1, 2, 3, 4, 0]);
+    assert_eq!(frame.camera.fx(), 9.0);
+    assert_eq!(frame.joints.get("turn"), Some(0.5));
 }
