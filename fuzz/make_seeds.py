@@ -48,6 +48,14 @@ def npy(array: np.ndarray) -> bytes:
     return content
 
 
+def npz(**arrays: np.ndarray) -> bytes:
+    path = SEEDS / "arrays.npz"
+    np.savez(path, **arrays)
+    content = path.read_bytes()
+    path.unlink()
+    return content
+
+
 def depth_m() -> np.ndarray:
     return np.linspace(0.5, 1.5, WIDTH * HEIGHT, dtype=np.float32).reshape(HEIGHT, WIDTH)
 
@@ -275,6 +283,53 @@ def db3(topics, compressed: bool = False) -> bytes:
     content = path.read_bytes()
     path.unlink()
     return content
+
+
+def dataset() -> None:
+    """A frame of a data set of one joint and four keypoints."""
+    put("dataset/dataset.toml", DATASET_TOML)
+    classes = np.arange(WIDTH * HEIGHT, dtype=np.uint8).reshape(HEIGHT, WIDTH)
+    frame = npz(
+        depth_m=depth_m(),
+        label=classes % 3,
+        keypoint=classes % 5,
+        camera_matrix=np.array([[9.0, 0, 4], [0, 9, 3], [0, 0, 1]]),
+        distortion=np.zeros(8),
+        camera_from_end_effector=np.eye(4),
+        keypoints_in_camera_m=np.ones((4, 3)),
+        joint_positions=np.array([0.5]),
+    )
+    put("dataset/frame.npz", frame)
+
+
+DATASET_TOML = """\
+schema = "eyebolt.dataset/1"
+convention = ""
+units = ""
+recordings = "recordings/*.toml"
+keypoints = [
+    { class = 1, link = "hand", point_in_link_m = [0.0, 0.0, 0.1] },
+    { class = 2, link = "hand", point_in_link_m = [0.0, 0.1, 0.0] },
+    { class = 3, link = "hand", point_in_link_m = [0.1, 0.0, 0.0] },
+    { class = 4, link = "hand", point_in_link_m = [0.0, 0.0, 0.0] },
+]
+
+[robot]
+name = "arm"
+urdf_hash = "0"
+base = "base"
+end_effector = "hand"
+joints = ["turn"]
+
+[classes]
+background = 0
+arm = 1
+end_effector = 2
+ignore = 255
+
+[symmetry]
+kind = "none"
+"""
 
 
 def arrays_and_pictures() -> None:
@@ -628,6 +683,7 @@ def main() -> None:
     shutil.rmtree(SEEDS, ignore_errors=True)
     SEEDS.mkdir()
     arrays_and_pictures()
+    dataset()
     bags()
     texts()
     robots()

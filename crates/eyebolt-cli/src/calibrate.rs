@@ -107,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
 }
 
 /// The error, with the recording where that is what does not fit and the error names no file.
-fn named(error: Failure, recording: &Path) -> anyhow::Error {
+pub(crate) fn named(error: Failure, recording: &Path) -> anyhow::Error {
     let in_frame = matches!(
         error,
         Failure::Record(

@@ -8,6 +8,7 @@ mod evaluate;
 mod export;
 mod info;
 mod inputs;
+mod label;
 mod logging;
 mod names;
 mod output;
@@ -71,6 +72,12 @@ enum Command {
     Train(train::Arguments),
     /// Say of each pixel of a recording whether it is the arm, by a network
     Segment(segment::Arguments),
+    /// Label every frame of recordings, for networks to learn from: arm, end-effector, keypoints, pose
+    ///
+    /// Each recording is calibrated from nothing, or by --calibration, and every frame at rest is labelled
+    /// and put into a folder that NumPy opens. What is there already is not labelled again, and several
+    /// machines may fill one folder, each a shard.
+    Label(Box<label::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
 }
@@ -88,6 +95,7 @@ fn main() -> ExitCode {
         Command::Study(arguments) => study::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
         Command::Segment(arguments) => segment::run(&arguments),
+        Command::Label(arguments) => label::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };
     match ending {

@@ -83,11 +83,12 @@ pub use frame_source::FrameSource;
 pub use in_memory::{InMemory, depth_from_millimetres};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
+pub use npy::{Dtype, Npy, Number};
 pub use progress::{Cancelled, Progress};
 pub use provenance::{ClockOffset, DropReason, DroppedFrame, Provenance, TopicSummary};
 pub use recording::Recording;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use write::{
     McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot, write_folder, write_mcap,
-    write_static_transforms,
+    write_npy, write_static_transforms,
 };

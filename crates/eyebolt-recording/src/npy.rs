@@ -6,12 +6,11 @@ mod number;
 use crate::error::RecordingError;
 use crate::file::{DATA_LIMIT, read_bytes};
 use header::Header;
-pub(crate) use number::Dtype;
-use number::Number;
+pub use number::{Dtype, Number};
 use std::path::Path;
 
 /// An array whose type and length have been checked, its numbers still as stored.
-pub(crate) struct Npy {
+pub struct Npy {
     bytes: Vec<u8>,
     header: Header,
     dtype: Dtype,
@@ -27,8 +26,13 @@ impl Npy {
         Self::parse(path, field, read_bytes(path, field, DATA_LIMIT)?, accepted)
     }
 
-    /// As [`Npy::read`], from bytes; `path` is for messages.
-    pub(crate) fn parse(
+    /// From the bytes of a file at `path`, which is `field` to whoever reads it and may be of types
+    /// `accepted`.
+    ///
+    /// # Errors
+    ///
+    /// Not an NPY file of such numbers, or one that is damaged.
+    pub fn parse(
         path: &Path,
         field: &str,
         bytes: Vec<u8>,
@@ -64,17 +68,17 @@ impl Npy {
     }
 
     /// Length of every axis.
-    pub(crate) fn shape(&self) -> &[usize] {
+    pub fn shape(&self) -> &[usize] {
         &self.header.shape
     }
 
     /// Type of the numbers as stored.
-    pub(crate) fn dtype(&self) -> Dtype {
+    pub fn dtype(&self) -> Dtype {
         self.dtype
     }
 
     /// All numbers, last axis fastest whatever the order in the file.
-    pub(crate) fn values<T: Number>(&self) -> Vec<T> {
+    pub fn values<T: Number>(&self) -> Vec<T> {
         let data = self.bytes.get(self.header.length..).unwrap_or(&[]);
         let big = self.header.descr.starts_with('>');
         let stored = match (self.dtype, big) {
@@ -82,6 +86,7 @@ impl Npy {
             (Dtype::Float32, true) => convert(data, |b| T::from_f32(f32::from_be_bytes(b))),
             (Dtype::Float64, false) => convert(data, |b| T::from_f64(f64::from_le_bytes(b))),
             (Dtype::Float64, true) => convert(data, |b| T::from_f64(f64::from_be_bytes(b))),
+            (Dtype::Uint8, _) => convert(data, |[b]: [u8; 1]| T::from_u16(u16::from(b))),
             (Dtype::Uint16, false) => convert(data, |b| T::from_u16(u16::from_le_bytes(b))),
             (Dtype::Uint16, true) => convert(data, |b| T::from_u16(u16::from_be_bytes(b))),
         };

@@ -15,6 +15,7 @@ mod robot;
 pub use error::WriteError;
 pub use folder::write_folder;
 pub use mcap::{McapWriter, write_static_transforms};
+pub use npy::write_npy;
 pub use recording_writer::{RecordingInfo, RecordingWriter};
 pub use robot::WriteRobot;
 

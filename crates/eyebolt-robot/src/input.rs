@@ -58,6 +58,8 @@ inputs! {
     MAX_ERROR_TRANSLATION = "max_error_translation";
     /// Expected error of a trusted answer: rotation.
     MAX_ERROR_ROTATION = "max_error_rotation";
+    /// A calibration that was made before.
+    CALIBRATION = "calibration";
     /// Where to write.
     OUTPUT = "output";
     /// Whether existing files are replaced.

@@ -2,15 +2,18 @@
 //!
 //! Before any pose is known: masks where the recording has them, else what stands before a
 //! background that the frames themselves tell. Once a pose is known: what lies near the posed arm,
-//! with a third answer, *ignore*, where nobody can say.
+//! with a third answer, *ignore*, where nobody can say. [`FrameLabeller`] labels single frames for
+//! others to learn from, with keypoints.
 
 mod before_pose;
+mod frame;
 mod labeller;
 mod masks;
 mod moving;
 mod posed;
 
 pub use before_pose::before_pose;
+pub use frame::{Contradiction, FrameLabeller, LabelledFrame};
 pub use labeller::Labeller;
 pub use masks::GivenMasks;
 pub use moving::Motion;

@@ -3,6 +3,7 @@
 pub mod answer;
 pub mod calibrate;
 mod connected;
+pub mod dataset;
 pub mod depth_noise;
 pub mod end_effector;
 pub mod evaluate;

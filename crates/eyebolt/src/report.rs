@@ -3,11 +3,13 @@
 mod backdrop;
 mod font;
 mod html;
+mod labelled;
 mod legend;
 mod overlay;
 mod picture;
 mod residual;
 
 pub use html::{Context, TruthComparison, html};
+pub use labelled::labelled;
 pub use overlay::{Drawn, overlay, overlays};
 pub use picture::Picture;

@@ -16,6 +16,7 @@ mod folder;
 mod images;
 mod interrupted;
 mod joints;
+mod label;
 mod meshes;
 mod npy;
 mod outcome;

@@ -16,7 +16,7 @@ pub const PATIENCE: Duration = Duration::from_secs(60);
 const MEMORY_KIB: u32 = 2_000_000;
 
 /// Shapes of links, shared by all tests.
-static CACHE: LazyLock<Desk> = LazyLock::new(|| Desk::shared("bad-input-cache"));
+pub static CACHE: LazyLock<Desk> = LazyLock::new(|| Desk::shared("bad-input-cache"));
 
 /// What a run left behind.
 pub struct Ended {

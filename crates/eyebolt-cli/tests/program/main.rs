@@ -9,6 +9,7 @@ mod export;
 mod files;
 mod good;
 mod info;
+mod label;
 mod messages;
 mod outcome;
 mod program;

@@ -58,8 +58,10 @@ impl Arm {
         let defaulted_joints = self.missing(hand.iter().copied(), positions);
         let mut unplaced_joints = self.missing(elsewhere.into_iter(), positions);
         unplaced_joints.retain(|name| !defaulted_joints.contains(name));
-        let defaults: JointPositions =
-            defaulted_joints.iter().map(|name| (name.clone(), self.default(name))).collect();
+        let defaults: JointPositions = defaulted_joints
+            .iter()
+            .map(|name| (name.clone(), self.default_position(name)))
+            .collect();
         let mut values = self.joint_values(positions)?;
         for joint in hand {
             if let Some(value @ None) = values.get_mut(joint) {
@@ -109,7 +111,9 @@ impl Arm {
         self.sources(without).into_iter().map(str::to_owned).collect()
     }
 
-    fn default(&self, name: &str) -> f64 {
+    /// Where [`Arm::link_poses_with_defaults`] puts joint `name` if it has no position, radians or
+    /// metres.
+    pub fn default_position(&self, name: &str) -> f64 {
         let joint = self.robot.joints.iter().find(|joint| joint.name == name);
         match joint.map(|joint| (joint.kind, joint.limits)) {
             Some((JointKind::Prismatic, Some(limits))) => limits.lower,

@@ -10,7 +10,7 @@ use super::shape::{Part, parts, vertices};
 use super::surface::spread;
 use super::symmetry::Symmetry;
 use eyebolt_geometry::{EndEffector as EndEffectorFrame, Link, Transform};
-use eyebolt_robot::{Arm, JointPositions, TriangleMesh};
+use eyebolt_robot::{Arm, Joint, JointPositions, TriangleMesh};
 use nalgebra::Point3;
 
 /// The end-effector link and all below it: shape, box, keypoints and symmetry.
@@ -65,6 +65,31 @@ impl EndEffector {
     /// Name of the end-effector link.
     pub fn name(&self) -> &str {
         self.arm.end_effector_name()
+    }
+
+    /// Names of the joints that move the end-effector in the base, then of those that move its own
+    /// parts.
+    pub fn joint_names(&self) -> Vec<&str> {
+        let mut names = self.arm.required_joints();
+        let links = self.arm.end_effector_links();
+        let below = |joint: &&Joint| joint.moves() && links.contains(&joint.parent);
+        for joint in self.arm.robot().joints.iter().filter(below) {
+            let name = self.source_name(joint);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// Name of the joint that decides where `joint` is.
+    fn source_name<'a>(&'a self, mut joint: &'a Joint) -> &'a str {
+        let joints = &self.arm.robot().joints;
+        // A tree that was read has no circle of joints that follow each other.
+        while let Some(next) = joint.mimic.and_then(|mimic| joints.get(mimic.joint)) {
+            joint = next;
+        }
+        &joint.name
     }
 
     /// What keypoints are fixed to, in the order of their classes (class 1 is the first).

@@ -1,12 +1,16 @@
 //! What a calibration file says, checked.
 
+mod corrections;
 mod field;
 mod pose;
+
+pub use corrections::Corrections;
 
 use super::error::ExportError;
 use super::file::read_text;
 use super::frame_name::FrameName;
 use crate::answer::SCHEMA;
+use corrections::RawCorrections;
 use eyebolt_geometry::{Base, Camera, Transform};
 use field::{REMEDY, missing};
 use pose::RawPose;
@@ -28,6 +32,7 @@ pub struct SavedCalibration {
     file: String,
     refused: Option<Vec<String>>,
     base_from_camera: Option<Transform<Base, Camera>>,
+    corrections: Corrections,
 }
 
 #[derive(Deserialize)]
@@ -83,6 +88,7 @@ impl SavedCalibration {
             }
         }
         let raw: Raw = json(file, text)?;
+        let corrections: RawCorrections = json(file, text)?;
         let frames = raw.frames.ok_or_else(|| missing(file, "frames"))?;
         Ok(Self {
             camera_frame: match frames.camera.filter(|name| !name.is_empty()) {
@@ -93,6 +99,7 @@ impl SavedCalibration {
             end_effector_frame: frame_name(file, "frames.end_effector", frames.end_effector)?,
             refused: refused(file, raw.verdict, raw.reasons)?,
             base_from_camera: pose::agreed(file, raw.camera_from_base, raw.base_from_camera)?,
+            corrections: corrections.check(file)?,
             file: file.to_owned(),
         })
     }
@@ -100,6 +107,11 @@ impl SavedCalibration {
     /// Where the calibration came from, for messages.
     pub fn file(&self) -> &str {
         &self.file
+    }
+
+    /// What it found to be off in what was recorded and described.
+    pub fn corrections(&self) -> &Corrections {
+        &self.corrections
     }
 
     /// Why it was refused; `None` if it is trusted.

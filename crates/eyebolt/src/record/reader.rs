@@ -5,8 +5,10 @@ use super::merge::{common_mask, median_depth};
 use super::options::RecordOptions;
 use super::projection::Projection;
 use crate::evenly::evenly;
+use crate::observations::Observations;
 use eyebolt_geometry::{DepthImage, Mask, PinholeCamera, RayTable};
 use eyebolt_recording::{Frame, FrameSource};
+use eyebolt_robot::JointPositions;
 
 /// Pixels of the images that one configuration is made from: enough frames for a median, few
 /// enough for memory.
@@ -59,10 +61,7 @@ impl Reader<'_> {
                 }
                 read => read?,
             };
-            let mask = frame.mask.filter(|_| self.options.use_masks);
-            check_mask(&frame.name, mask.as_ref(), camera)?;
-            let image = self.projection.depth_image(frame.range);
-            check_size(&format!("frame {}", frame.name), &image, camera)?;
+            let (image, mask) = self.image(frame)?;
             images.push(image);
             masks.push(mask);
         }
@@ -73,6 +72,16 @@ impl Reader<'_> {
         Ok(Seen { depth: self.along_rays(image), mask: common_mask(&masks) })
     }
 
+    /// The image that a frame becomes, and its mask if masks are used.
+    fn image(&self, frame: Frame) -> Result<(DepthImage, Option<Mask>), RecordError> {
+        let camera = &self.projection.camera;
+        let mask = frame.mask.filter(|_| self.options.use_masks);
+        check_mask(&frame.name, mask.as_ref(), camera)?;
+        let image = self.projection.depth_image(frame.range);
+        check_size(&format!("frame {}", frame.name), &image, camera)?;
+        Ok((image, mask))
+    }
+
     /// `image` where the lens has rays.
     fn along_rays(&self, image: DepthImage) -> DepthImage {
         let (width, height) = (image.width(), image.height());
@@ -80,6 +89,49 @@ impl Reader<'_> {
         let depth_m = image.into_depth_m().into_iter().zip(self.rays.rays()).map(known).collect();
         DepthImage::new(width, height, depth_m).expect("as many pixels as before")
     }
+}
+
+/// Reads frames one by one, as the images that `observations` are of.
+pub(crate) struct SingleFrames<'a> {
+    source: &'a dyn FrameSource,
+    projection: Projection,
+    rays: &'a RayTable,
+    options: &'a RecordOptions,
+}
+
+impl<'a> SingleFrames<'a> {
+    /// Of the recording that `observations` were made of, by the same `options`.
+    pub(crate) fn new(
+        source: &'a dyn FrameSource,
+        observations: &'a Observations,
+        options: &'a RecordOptions,
+    ) -> Self {
+        let Observations { camera, optical_from_camera, source: image_source, rays, .. } =
+            observations;
+        let projection = Projection {
+            camera: camera.clone(),
+            optical_from_camera: *optical_from_camera,
+            source: *image_source,
+        };
+        Self { source, projection, rays, options }
+    }
+
+    /// What frame `index` saw, and its joints; an error that may be left out is a reason.
+    pub(crate) fn read(&self, index: usize) -> Result<SingleFrame, RecordError> {
+        let Self { source, projection, rays, options } = self;
+        let reader = Reader { source: *source, projection, rays, options };
+        let frame = self.source.read_frame(index)?;
+        let joints = frame.joints.clone();
+        let (depth, mask) = reader.image(frame)?;
+        Ok(SingleFrame { depth: reader.along_rays(depth), mask, joints })
+    }
+}
+
+/// What one frame saw.
+pub(crate) struct SingleFrame {
+    pub(crate) depth: DepthImage,
+    pub(crate) mask: Option<Mask>,
+    pub(crate) joints: JointPositions,
 }
 
 /// A source of anybody's may hand out images of any size.

@@ -2,7 +2,7 @@
 
 use crate::json::{calibration, example, parsed};
 use crate::poses::{config, pose};
-use eyebolt::export::SavedCalibration;
+use eyebolt::export::{Corrections, SavedCalibration};
 use eyebolt_geometry::Transform;
 use eyebolt_robot::Input;
 use proptest::prelude::*;
@@ -160,4 +160,29 @@ fn a_camera_without_a_name_is_allowed() {
     for name in [json!(null), json!("")] {
         assert_eq!(parsed(&with("/frames/camera", Some(name))).camera_frame, None);
     }
+}
+
+#[test]
+fn what_was_found_to_be_off_is_read_in_si_units() {
+    let mut json = calibration(&example());
+    json["joint_offsets"] = json!([{"joint": "elbow", "offset_deg": 90.0, "sigma_deg": 0.1}]);
+    json["link_lengths"] = json!([{"joint": "wrist", "longer_mm": -4.0}]);
+    json["depth_scale_error"] = json!(0.01);
+    json["intrinsics_offset"] = json!({"focal_percent": 2.0, "centre_px": [3.0, -1.0]});
+    json["camera_moved"] = json!([{"before_frame": "7"}]);
+    let found = parsed(&json);
+    assert_eq!(
+        *found.corrections(),
+        Corrections {
+            joint_offsets_rad: vec![("elbow".to_owned(), std::f64::consts::FRAC_PI_2)],
+            link_lengths_m: vec![("wrist".to_owned(), -0.004)],
+            depth_scale_error: 0.01,
+            focal: 0.02,
+            centre_px: [3.0, -1.0],
+            camera_moved_before: Some("7".to_owned()),
+        }
+    );
+    assert_eq!(*parsed(&calibration(&example())).corrections(), Corrections::default());
+    json["depth_scale_error"] = json!(7.0);
+    assert!(error(&json).contains("depth_scale_error: 7 is more than 0.5"), "{}", error(&json));
 }

@@ -4,6 +4,7 @@
 //! Needs the shared data; without it every test here says that it is skipped.
 
 mod bags;
+mod labels;
 mod measures;
 mod others;
 mod promises;

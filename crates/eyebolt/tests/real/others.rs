@@ -9,21 +9,21 @@ use nalgebra::Matrix4;
 use std::path::Path;
 
 /// A recording in the shared data, as `recording.toml` tells it.
-struct Recorded {
-    folder: &'static str,
+pub struct Recorded {
+    pub folder: &'static str,
     /// Files of a frame, and what each is called where the manifest looks for it.
     files: &'static [[&'static str; 2]],
     camera: Option<&'static str>,
     frames: &'static str,
     /// Its frames by their numbers.
-    numbers: &'static [usize],
+    pub numbers: &'static [usize],
     joints: &'static str,
     robot: [&'static str; 3],
     /// `base_from_camera` of another program, row by row; see the recording's notes.
     reference: [[f64; 4]; 3],
 }
 
-const XARM: Recorded = Recorded {
+pub const XARM: Recorded = Recorded {
     folder: "data/recordings/xarm7_realsense",
     files: &[
         ["depth_{}.npy", "depth_{}.npy"],
@@ -66,7 +66,7 @@ impl Recorded {
     }
 
     /// These of its frames, by their numbers, with masks if `masks`.
-    fn open(&self, shared: &Path, numbers: &[usize], masks: bool) -> Opened {
+    pub fn open(&self, shared: &Path, numbers: &[usize], masks: bool) -> Opened {
         let joints = (1..=7).map(|joint| format!("{}{joint}", self.joints)).collect();
         let variant = Variant { joints, robot: self.robot, masks, ..Variant::default() };
         let (folder, data) = (tempfile::tempdir().unwrap(), shared.join(self.folder));
