@@ -3,8 +3,8 @@
 //! Points count, not pixels: those with depth, but for those within 3 pixels of the mask's edge.
 #![allow(clippy::print_stdout)]
 
-use eyebolt::segment::{BACKGROUND, Segmenter};
-use eyebolt::train::{Confusion, IGNORE};
+use eyebolt::segment::{BACKGROUND, Segmenter, UNKNOWN};
+use eyebolt::train::Confusion;
 use eyebolt_geometry::{DepthImage, Mask};
 use eyebolt_recording::{BagOptions, Range, Recording};
 use std::path::Path;
@@ -75,7 +75,7 @@ fn truth(depth: &DepthImage, mask: &Mask) -> Vec<u8> {
         let same = around.into_iter().all(|(du, dv)| at(u + du, v + dv) == at(u, v));
         match depth.depth_m()[index as usize] > 0.0 && same {
             true => u8::from(at(u, v)),
-            false => IGNORE,
+            false => UNKNOWN,
         }
     };
     (0..width * height).map(pixel).collect()

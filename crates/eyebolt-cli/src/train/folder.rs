@@ -53,6 +53,16 @@ impl ModelFolder {
         Ok(Some(std::fs::read(&path).with_context(failed)?))
     }
 
+    /// Weights of the network of the same kind in the folder of another model.
+    pub fn weights_of(&self, model: &Path) -> Result<Vec<u8>> {
+        let own = self.path.file_name().unwrap_or_default();
+        let path = model.join(own).join(WEIGHTS);
+        let failed = || {
+            format!("{}: cannot read it. Name the folder of a model with --from", path.display())
+        };
+        std::fs::read(&path).with_context(failed)
+    }
+
     /// Lines that were written before; what is not a line of ours is left out.
     fn read_log(&self) -> Vec<Report> {
         let text = std::fs::read_to_string(self.path.join(LOG)).unwrap_or_default();

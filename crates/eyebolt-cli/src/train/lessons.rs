@@ -1,36 +1,21 @@
 //! One network after the other.
 
-use super::Arguments;
+use super::arguments::{Arguments, Kind};
 use super::folder::ModelFolder;
+use crate::inputs::packages;
 use crate::output;
 use anyhow::{Result, bail};
+use eyebolt::dataset::Dataset;
 use eyebolt::end_effector::EndEffector;
 use eyebolt::progress::Progress;
+use eyebolt::robots::{BUILT_IN, BuiltIn};
 use eyebolt::train::{
-    Actor, Cast, Checkpoint, Hand, KeypointLesson, Lesson, RotationLesson, SegmentationLesson,
-    pace, teach as run,
+    Actor, Beginning, Cast, Checkpoint, Hand, Images, KeypointLesson, Lesson, RotationLesson,
+    SegmentationLesson, pace, teach as run,
 };
-use eyebolt_robot::Arm;
+use eyebolt_robot::{Arm, Robot};
+use std::path::PathBuf;
 use std::time::Instant;
-
-/// What a network tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Segmentation,
-    Rotation,
-    Keypoints,
-}
-
-impl Kind {
-    /// Its folder in that of the model.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Segmentation => "segmentation",
-            Self::Rotation => "rotation",
-            Self::Keypoints => "keypoints",
-        }
-    }
-}
 
 /// Teaches the network of `kind`, or goes on with it; one that is ready is left as it is.
 pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Result<()> {
@@ -44,8 +29,8 @@ pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Resu
     }
     output::say(&format!("{}:", kind.name()));
     if arguments.any_arm {
-        let cast = Cast::Any { known: Vec::new(), share_known: 0.0 };
-        return segmentation(arguments, cast, 2, "arms that are made up", folder, progress);
+        let (cast, about) = any_arm(arguments)?;
+        return segmentation(arguments, Images::simulated(cast), 2, &about, folder, progress);
     }
     let arm = arguments.robot.read()?.arm;
     let about = format!(
@@ -56,8 +41,7 @@ pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Resu
     );
     match kind {
         Kind::Segmentation => {
-            let cast = Cast::Known(vec![Actor::new(arm, &arguments.cache.open())?]);
-            segmentation(arguments, cast, 3, &about, folder, progress)
+            segmentation(arguments, images(arguments, arm)?, 3, &about, folder, progress)
         }
         Kind::Rotation => {
             let mut lesson =
@@ -74,16 +58,31 @@ pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Resu
     }
 }
 
+/// Made-up arms, and among them those that come with the program and those that are named.
+fn any_arm(arguments: &Arguments) -> Result<(Cast, String)> {
+    /// Share of the images that are of a known arm.
+    const SHARE_KNOWN: f64 = 0.3;
+    let cache = arguments.cache.open();
+    let mut arms: Vec<Arm> = BUILT_IN.iter().map(BuiltIn::arm).collect();
+    for urdf in &arguments.also {
+        arms.push(Robot::from_urdf_file(urdf, &packages(&[]))?.arm(None, None)?);
+    }
+    let names: Vec<String> = arms.iter().map(|arm| arm.robot().name.clone()).collect();
+    let known = arms.into_iter().map(|arm| Actor::new(arm, &cache)).collect::<Result<_, _>>()?;
+    let about = format!("arms that are made up, and {}", names.join(", "));
+    Ok((Cast::Any { known, share_known: SHARE_KNOWN }, about))
+}
+
 fn segmentation(
     arguments: &Arguments,
-    cast: Cast,
+    images: Images,
     classes: usize,
     about: &str,
     folder: ModelFolder,
     progress: &dyn Progress,
 ) -> Result<()> {
     let net = arguments.preset.segmentation(classes)?;
-    let mut lesson = SegmentationLesson::new(cast, arguments.preset.grid(), net, arguments.seed)?;
+    let mut lesson = SegmentationLesson::new(images, arguments.preset.grid(), net, arguments.seed)?;
     lesson.trained_on = about.to_owned();
     finish(arguments, &lesson, folder, progress)
 }
@@ -91,8 +90,21 @@ fn segmentation(
 fn hand(arguments: &Arguments, arm: Arm) -> Result<Hand> {
     let end_effector = EndEffector::of(&arm)?;
     let extent_m = end_effector.extent_m();
+    let images = images(arguments, arm)?;
+    Ok(Hand { images, end_effector, extent_m, seed: arguments.seed })
+}
+
+/// Images of `arm`: simulated, and of the data sets that are named.
+fn images(arguments: &Arguments, arm: Arm) -> Result<Images> {
+    let open = |folder: &PathBuf| {
+        let dataset = Dataset::open(folder)?;
+        dataset.check_robot(&arm)?;
+        Ok(dataset)
+    };
+    let recorded = arguments.data.iter().map(open).collect::<Result<Vec<_>>>()?;
+    let half = if recorded.is_empty() { 1.0 } else { 0.5 };
     let cast = Cast::Known(vec![Actor::new(arm, &arguments.cache.open())?]);
-    Ok(Hand { cast, end_effector, extent_m, seed: arguments.seed })
+    Ok(Images::mixed(cast, recorded, arguments.simulated.unwrap_or(half))?)
 }
 
 fn finish<L: Lesson>(
@@ -124,11 +136,16 @@ fn finish<L: Lesson>(
             ((60.0 * arguments.minutes / seconds) as u64).max(10)
         }
     };
-    progress.begin(lesson_name(&folder))?;
-    let model = run(lesson, &plan(steps), checkpoint.as_deref(), &mut folder, progress)?;
+    progress.begin("train")?;
+    let weights = match (&checkpoint, &arguments.from) {
+        (None, Some(from)) => Some(folder.weights_of(from)?),
+        _ => None,
+    };
+    let beginning = match (&checkpoint, &weights) {
+        (Some(bytes), _) => Beginning::Checkpoint(bytes),
+        (None, Some(bytes)) => Beginning::Weights(bytes),
+        (None, None) => Beginning::Anew,
+    };
+    let model = run(lesson, &plan(steps), beginning, &mut folder, progress)?;
     folder.write(&model)
-}
-
-fn lesson_name(_: &ModelFolder) -> &'static str {
-    "train"
 }

@@ -2,8 +2,7 @@
 
 use super::actor::{Actor, Pose};
 use super::look::spread_evenly;
-use super::shot::IGNORE;
-use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, Thinned, rays};
+use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, Thinned, UNKNOWN, rays};
 use eyebolt_geometry::{Base, Camera, EndEffector, Link, PinholeCamera, RayTable, Transform};
 use eyebolt_render::{Random, Raster, RayScene, SceneMesh};
 use eyebolt_robot::{Body, Prefer, Shape, TriangleMesh, link_mesh};
@@ -79,7 +78,7 @@ impl<'a> Drawing<'a> {
             RayScene::new(&meshes).depth(&table, &self.base_from_camera, &mut before);
             for (at, z) in before.into_iter().enumerate().filter(|(_, z)| *z > 0.0) {
                 if depth_m[at] == 0.0 || z < depth_m[at] {
-                    (depth_m[at], label[at]) = (z, IGNORE);
+                    (depth_m[at], label[at]) = (z, UNKNOWN);
                 }
             }
         }

@@ -15,6 +15,9 @@ pub enum TrainError {
     /// The end-effector has no shape to go by.
     #[error(transparent)]
     EndEffector(#[from] crate::end_effector::EndEffectorError),
+    /// A data set that cannot be read.
+    #[error(transparent)]
+    Dataset(#[from] crate::dataset::DatasetError),
     /// What the network says: weights, features, memory.
     #[error(transparent)]
     Net(#[from] eyebolt_net::Error),

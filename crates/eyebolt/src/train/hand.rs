@@ -1,7 +1,8 @@
 //! Views of an end-effector to learn from.
 
 use super::error::TrainError;
-use super::shot::{Cast, Framing, Shot};
+use super::images::Images;
+use super::shot::{Framing, Shot};
 use crate::end_effector::EndEffector;
 use crate::pose::EndEffectorView;
 use crate::segment::{ARM, END_EFFECTOR};
@@ -13,7 +14,7 @@ use std::sync::OnceLock;
 /// Whose end-effector, and from where.
 pub struct Hand {
     /// The arm, which is known.
-    pub cast: Cast,
+    pub images: Images,
     /// Its end-effector.
     pub end_effector: EndEffector,
     /// Its largest extent, metres.
@@ -75,7 +76,7 @@ impl Hand {
         let random = Random::new(self.seed).at(stream).at(index);
         let framing = Framing::AT_END_EFFECTOR;
         for attempt in 0..TRIES {
-            let shots = self.cast.shots(random.at(attempt), 1, framing)?;
+            let shots = self.images.shots(random.at(attempt), 1, framing)?;
             let Some(shot) = shots.into_iter().next() else { continue };
             let points = if true_labels {
                 points(&shot, &shot.label)

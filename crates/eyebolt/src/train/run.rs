@@ -7,7 +7,8 @@ use super::lesson::{Lesson, Plan};
 use crate::progress::Progress;
 use eyebolt_net::models::Model;
 use eyebolt_net::training::Trainer;
-use eyebolt_net::{Cpu, Parameters};
+use eyebolt_net::weights::{Layout, load_matching};
+use eyebolt_net::{Cpu, Graph, Parameters};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -47,28 +48,55 @@ pub trait Keep {
     fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), TrainError>;
 }
 
-/// Teaches `lesson` by `plan`, from its beginning or from `from`, the bytes of a checkpoint. The best
-/// network by its validations.
+/// Where a run begins.
+#[derive(Clone, Copy, Debug)]
+pub enum Beginning<'a> {
+    /// With weights that know nothing.
+    Anew,
+    /// With the weights of another network, safetensors, as far as they fit.
+    Weights(&'a [u8]),
+    /// Where it was when this checkpoint was written.
+    Checkpoint(&'a [u8]),
+}
+
+impl Beginning<'_> {
+    fn state(self, graph: &Graph, plan: &Plan) -> Result<Checkpoint, TrainError> {
+        let mut parameters = Parameters::initial(graph, plan.seed);
+        match self {
+            Self::Checkpoint(bytes) => return Checkpoint::from_bytes(graph, bytes, plan),
+            Self::Weights(bytes) => {
+                let fit = load_matching(graph, &mut parameters, bytes, Layout::Eyebolt)?;
+                if fit.loaded.is_empty() {
+                    return Err(TrainError::File {
+                        file: "weights.safetensors".into(),
+                        field: "tensors".into(),
+                        problem: "none fits the network. Begin with a model of the same kind"
+                            .into(),
+                    });
+                }
+            }
+            Self::Anew => {}
+        }
+        let trainer = Trainer::from_parameters(parameters, plan.rule, plan.schedule(), plan.seed);
+        Ok(Checkpoint { trainer, best: None, progressed: Progressed::new(plan) })
+    }
+}
+
+/// Teaches `lesson` by `plan`. The best network by its validations.
 ///
 /// # Errors
 ///
-/// The lesson's and the network's; a checkpoint of another run; what `keep` cannot write; cancelled.
+/// The lesson's and the network's; weights or a checkpoint of another network or run; what `keep` cannot
+/// write; cancelled.
 pub fn teach<L: Lesson>(
     lesson: &L,
     plan: &Plan,
-    from: Option<&[u8]>,
+    from: Beginning<'_>,
     keep: &mut dyn Keep,
     progress: &dyn Progress,
 ) -> Result<Model, TrainError> {
     let graph = lesson.graph();
-    let mut state = match from {
-        Some(bytes) => Checkpoint::from_bytes(graph, bytes, plan)?,
-        None => Checkpoint {
-            trainer: Trainer::new(graph, plan.rule, plan.schedule(), plan.seed),
-            best: None,
-            progressed: Progressed::new(plan),
-        },
-    };
+    let mut state = from.state(graph, plan)?;
     std::thread::scope(|scope| {
         let span = (state.trainer.step_count(), plan.steps);
         let mut feed = Feed::start(scope, plan.threads, span, |step| lesson.batch(step));

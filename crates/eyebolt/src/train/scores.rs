@@ -1,6 +1,6 @@
 //! How good labels are.
 
-use super::shot::IGNORE;
+use crate::segment::UNKNOWN;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -29,9 +29,9 @@ impl Confusion {
         Self { classes, counts: vec![0; classes * classes] }
     }
 
-    /// Counts points, but for those whose truth is [`IGNORE`].
+    /// Counts points, but for those whose truth is [`UNKNOWN`].
     pub fn add(&mut self, truth: &[u8], found: &[u8]) {
-        let known = truth.iter().zip(found).filter(|(truth, _)| **truth != IGNORE);
+        let known = truth.iter().zip(found).filter(|(truth, _)| **truth != UNKNOWN);
         for (truth, found) in known {
             let (truth, found) = (usize::from(*truth), usize::from(*found));
             if truth < self.classes && found < self.classes {
@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn counts_by_hand() {
         let mut confusion = Confusion::new(3);
-        confusion.add(&[0, 0, 1, 1, 1, 2, 2, IGNORE], &[0, 1, 1, 1, 2, 2, 0, 1]);
+        confusion.add(&[0, 0, 1, 1, 1, 2, 2, UNKNOWN], &[0, 1, 1, 1, 2, 2, 0, 1]);
         let arm = confusion.class(1);
         assert_eq!((arm.precision, arm.recall, arm.iou), (2.0 / 3.0, 2.0 / 3.0, 0.5));
         let any = confusion.foreground();

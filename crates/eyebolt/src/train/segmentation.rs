@@ -1,10 +1,11 @@
 //! Learning which pixels are the arm.
 
 use super::error::TrainError;
+use super::images::Images;
 use super::lesson::Lesson;
 use super::scores::Confusion;
-use super::shot::{Cast, Framing, IGNORE, Shot};
-use crate::segment::{ARM, END_EFFECTOR, FEATURES, Grid, Thinned};
+use super::shot::{Framing, Shot};
+use crate::segment::{ARM, END_EFFECTOR, FEATURES, Grid, Thinned, UNKNOWN};
 use eyebolt_net::losses::{Loss, cross_entropy, lovasz_softmax};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
@@ -14,8 +15,8 @@ use std::sync::OnceLock;
 
 /// Networks that tell arm and end-effector from the rest.
 pub struct SegmentationLesson {
-    /// Whose images.
-    pub cast: Cast,
+    /// What it learns from.
+    pub source: Images,
     /// In which cells the network sees them.
     pub grid: Grid,
     /// Images of a step.
@@ -34,24 +35,24 @@ pub struct SegmentationLesson {
 }
 
 /// The label that losses leave out.
-const IGNORED: u32 = IGNORE as u32;
+const IGNORED: u32 = UNKNOWN as u32;
 /// Streams of random numbers: images to learn from, and others.
 const LEARN: u64 = 1;
 const VALIDATE: u64 = 2;
 
 impl SegmentationLesson {
-    /// Of `cast`, by `net`, whose outputs are background, arm and, if there are three, the end-effector.
+    /// Of `source`, by `net`, whose outputs are background, arm and, if there are three, the end-effector.
     ///
     /// # Errors
     ///
     /// The network is none.
-    pub fn new(cast: Cast, grid: Grid, net: MinkUNet, seed: u64) -> Result<Self, TrainError> {
+    pub fn new(source: Images, grid: Grid, net: MinkUNet, seed: u64) -> Result<Self, TrainError> {
         let graph = net.graph()?;
         let names = ["background", "arm", "end_effector"];
         let classes = names[..net.outputs.min(3)].iter().map(|name| (*name).to_owned()).collect();
         let (images, validation, trained_on) = (4, 64, String::new());
         Ok(Self {
-            cast,
+            source,
             grid,
             images,
             seed,
@@ -67,7 +68,7 @@ impl SegmentationLesson {
     fn shots(&self, stream: u64, step: u64) -> Result<Vec<Shot>, TrainError> {
         let framing = Framing { columns: self.grid.columns(), ..Framing::ARM };
         let random = Random::new(self.seed).at(stream).at(step);
-        let mut shots = self.cast.shots(random, self.images, framing)?;
+        let mut shots = self.source.shots(random, self.images, framing)?;
         if self.classes.len() < 3 {
             let labels = shots.iter_mut().flat_map(|shot| &mut shot.label);
             labels.filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);

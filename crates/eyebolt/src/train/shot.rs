@@ -13,9 +13,6 @@ use eyebolt_render::Random;
 use eyebolt_robot::JointPositions;
 use nalgebra::Point3;
 
-/// The label of a tool, a cable, a bracket on the arm that no description has: neither answer is wrong.
-pub const IGNORE: u8 = 255;
-
 /// Whose images.
 pub enum Cast {
     /// Of one of these arms.
@@ -34,7 +31,7 @@ pub enum Cast {
 pub struct Shot {
     /// What the camera saw, its faults included.
     pub image: Thinned,
-    /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`IGNORE`].
+    /// Of each pixel: background, arm, end-effector or, where a tool or a cable that no description has hides them, unknown (see [`crate::segment`]).
     pub label: Vec<u8>,
     /// Pose of the end-effector.
     pub camera_from_end_effector: Transform<Camera, EndEffector>,

@@ -1,8 +1,8 @@
 //! What is taught is learned.
 
 use crate::small::{Memory, Repeated, Until, lesson, plan};
-use eyebolt::segment::Segmenter;
-use eyebolt::train::{Cast, Framing, IGNORE, Lesson, invented_arm, teach};
+use eyebolt::segment::{Segmenter, UNKNOWN};
+use eyebolt::train::{Beginning, Cast, Framing, Lesson, invented_arm, teach};
 use eyebolt_net::{Cpu, Executor};
 use eyebolt_render::Random;
 
@@ -13,7 +13,7 @@ fn eight_images_are_learned_by_heart() {
     let mut keep = Memory::default();
     let steps = 500;
     let plan = eyebolt::train::Plan { rate: 1e-2, ..plan(steps, steps) };
-    teach(&lesson, &plan, None, &mut keep, &Until(usize::MAX)).unwrap();
+    teach(&lesson, &plan, Beginning::Anew, &mut keep, &Until(usize::MAX)).unwrap();
     let last = keep.checkpoints.last().unwrap();
     let state = eyebolt::train::Checkpoint::from_bytes(lesson.graph(), last, &plan).unwrap();
     let (mut right, mut all) = (0, 0);
@@ -29,7 +29,7 @@ fn eight_images_are_learned_by_heart() {
         Cpu::new()
             .forward_backward(lesson.graph(), parameters, &batch, Default::default(), &mut outputs)
             .unwrap();
-        let known = labels.iter().zip(&found).filter(|(label, _)| **label != u32::from(IGNORE));
+        let known = labels.iter().zip(&found).filter(|(label, _)| **label != u32::from(UNKNOWN));
         all += known.clone().count();
         right += known.filter(|(label, found)| label == found).count();
     }
@@ -41,7 +41,8 @@ fn a_short_lesson_tells_an_arm_from_a_room() {
     let mut lesson = lesson();
     lesson.validation = 24;
     let mut keep = Memory::default();
-    let model = teach(&lesson, &plan(160, 80), None, &mut keep, &Until(usize::MAX)).unwrap();
+    let model =
+        teach(&lesson, &plan(160, 80), Beginning::Anew, &mut keep, &Until(usize::MAX)).unwrap();
     let (first, last) = (&keep.reports[0], &keep.reports[1]);
     assert!(last.loss < first.loss);
     let recall = model.description.metrics["arm_recall"];

@@ -4,7 +4,7 @@ use eyebolt::progress::{Cancelled, Progress};
 use eyebolt::robots::BuiltIn;
 use eyebolt::segment::Grid;
 use eyebolt::train::{
-    Actor, Cast, Keep, Lesson, Plan, Preset, Report, SegmentationLesson, TrainError,
+    Actor, Cast, Images, Keep, Lesson, Plan, Preset, Report, SegmentationLesson, TrainError,
 };
 use eyebolt_net::losses::Loss;
 use eyebolt_net::models::{MinkUNet, ModelDescription};
@@ -14,12 +14,19 @@ use std::collections::BTreeMap;
 
 /// The segmentation of the built-in robot on images of 64 columns, by few channels.
 pub fn lesson() -> SegmentationLesson {
+    small_net(3)
+}
+
+/// The same with so many classes.
+pub fn small_net(classes: usize) -> SegmentationLesson {
     let arm = BuiltIn::named("shackle").unwrap().arm();
     let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-test-links"));
     let cast = Cast::Known(vec![Actor::new(arm, &cache).unwrap()]);
-    let net = Preset::Default.segmentation(3).unwrap();
+    let net = Preset::Default.segmentation(classes).unwrap();
     let net = MinkUNet { channels: [16, 16, 32, 32, 32, 16, 16, 16], stem_channels: 8, ..net };
-    let mut lesson = SegmentationLesson::new(cast, Grid::Image { columns: 64 }, net, 5).unwrap();
+    let mut lesson =
+        SegmentationLesson::new(Images::simulated(cast), Grid::Image { columns: 64 }, net, 5)
+            .unwrap();
     lesson.validation = 8;
     lesson
 }
