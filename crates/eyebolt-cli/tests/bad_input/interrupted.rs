@@ -1,7 +1,7 @@
 //! Ctrl-C in the middle of the work.
 
 use crate::desk::{Desk, text};
-use crate::folder::Recorded;
+use crate::folder::{GOOD, Recorded};
 use crate::run::{PATIENCE, command, end, start};
 use std::os::unix::fs::symlink;
 use std::process::Command;
@@ -12,9 +12,9 @@ use std::time::Instant;
 const FRAMES: usize = 3000;
 
 /// A recording of the same frame over and over.
-fn long() -> Recorded {
+fn long(frames: usize) -> Recorded {
     let recorded = Recorded::two();
-    for frame in 2..FRAMES {
+    for frame in 2..frames {
         for (name, ending) in [("depth", "npy"), ("mask", "png"), ("joints", "npy")] {
             let link = recorded.path().join(format!("{name}_{frame}.{ending}"));
             symlink(format!("{name}_1.{ending}"), link).unwrap();
@@ -25,7 +25,7 @@ fn long() -> Recorded {
 
 /// Interrupts a conversion to `name` when something has appeared beside it that will become it.
 fn interrupt(name: &str) {
-    let (desk, recorded) = (Desk::new(), long());
+    let (desk, recorded) = (Desk::new(), long(FRAMES));
     let output = desk.file(name);
     let mut convert = start(&mut command("", &["convert", text(recorded.path()), text(&output)]));
     let begun = Instant::now();
@@ -47,4 +47,34 @@ fn a_file_half_written() {
 #[test]
 fn a_folder_half_written() {
     interrupt("out");
+}
+
+/// Frames that take some seconds to label.
+const LABELLED_FRAMES: usize = 250;
+
+/// What was labelled stays, and the next run goes on from there.
+#[test]
+fn a_data_set_half_filled() {
+    let (desk, recorded) = (Desk::new(), long(LABELLED_FRAMES));
+    let (calibration, set) = (desk.file("calibration.json"), desk.file("set"));
+    std::fs::write(&calibration, &*GOOD).unwrap();
+    let given = ["--calibration", text(&calibration), "--json", "--no-cache"];
+    let arguments =
+        [&["label", text(recorded.path()), "--output", text(&set)], &given[..]].concat();
+    let mut label = start(&mut command("", &arguments));
+    let begun = Instant::now();
+    while !set.join("frames").exists() && label.try_wait().unwrap().is_none() {
+        assert!(begun.elapsed() < PATIENCE, "nothing is labelled");
+        thread::yield_now();
+    }
+    let sent = Command::new("kill").args(["-INT", &label.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    end(label).assert_error(&["before all frames were labelled", "Run it again to go on"]);
+    assert!(!set.join("index.jsonl").exists());
+    let ended = end(start(&mut command("", &arguments)));
+    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
+    let told: serde_json::Value = serde_json::from_str(&ended.out).unwrap();
+    let known = told["known"].as_u64().unwrap();
+    assert_eq!(told["labelled"], LABELLED_FRAMES);
+    assert!(known > 0 && known < LABELLED_FRAMES as u64, "{known}");
 }

@@ -110,8 +110,11 @@ impl Store {
         let file = recording.frame_file(number, name);
         let path = self.folder.join(&file);
         if let Some(line) = self.index.get(&key) {
-            // A file that somebody removed is made anew.
-            let is_there = line.labelled.is_none() || path.exists();
+            // A file that somebody removed or cut is made anew.
+            let is_whole = |file: &FileLine| {
+                std::fs::metadata(&path).is_ok_and(|there| there.len() == file.bytes)
+            };
+            let is_there = line.labelled.as_ref().is_none_or(is_whole);
             return Ok(is_there.then(|| line.clone()));
         }
         if !path.exists() {

@@ -13,6 +13,7 @@ mod keypoints;
 mod labeller;
 mod near;
 mod outline;
+mod specks;
 
 pub use consistency::Contradiction;
 pub use labeller::{FrameLabeller, LabelledFrame};

@@ -42,6 +42,18 @@ fn an_interrupted_run_goes_on() {
 }
 
 #[test]
+fn files_that_were_removed_or_cut_are_made_anew() {
+    let (folder, dataset) = labelled();
+    let before = content(folder.path());
+    let file = |frame: usize| folder.path().join(&dataset.frames()[frame].file.file);
+    std::fs::remove_file(file(0)).unwrap();
+    std::fs::write(file(2), &std::fs::read(file(2)).unwrap()[..5000]).unwrap();
+    let again = KINECT.label(folder.path(), Shard::WHOLE).unwrap();
+    assert_eq!((again.known, again.lines.len()), (2, 4));
+    assert_eq!(content(folder.path()), before);
+}
+
+#[test]
 fn shards_merged_are_one_run() {
     let (whole, _) = labelled();
     let folder = tempfile::tempdir().unwrap();

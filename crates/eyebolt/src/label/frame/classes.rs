@@ -59,7 +59,7 @@ impl Judge<'_> {
             let along_ray =
                 self.raster.depth_m(at).is_some_and(|m| (z - m).abs() <= self.surface_m(z));
             return match drawn {
-                // Marked by a mask, and not drawn.
+                // Marked by a mask and not drawn, or drawn as both.
                 Label::Ignore => near,
                 drawn if self.outline.to_other_class_px(place) <= EDGE_PX => {
                     if near == drawn && !along_ray { drawn } else { Label::Ignore }

@@ -1,5 +1,6 @@
 //! How far pixels are from the arm's outline, and from that of its end-effector.
 
+use super::specks::without_specks;
 use eyebolt_geometry::Mask;
 use eyebolt_registration::{ArmModel, Label, Labels};
 use eyebolt_render::Raster;
@@ -43,6 +44,7 @@ impl Outline {
                 (Some(true), link) => link,
             }
         });
+        let drawn = without_specks(drawn);
         let is_robot = |label: Label| label != Label::Background;
         Self {
             to_robot_px: drawn.distance_where(is_robot),
