@@ -81,6 +81,20 @@ impl Parameters {
         &self.values
     }
 
+    /// Moves every value by a share of the way to that of `other`: done after every step, a mean of the last
+    /// ones.
+    ///
+    /// # Panics
+    /// If the parameters are another network's.
+    pub fn approach(&mut self, other: &Self, share: f32) {
+        let lengths = |of: &Self| of.values.iter().map(Vec::len).collect::<Vec<_>>();
+        assert_eq!(lengths(self), lengths(other), "parameters of the same network");
+        for (values, others) in self.values_mut().iter_mut().zip(&other.values) {
+            let pairs = values.iter_mut().zip(others);
+            pairs.for_each(|(value, other)| *value += share * (other - *value));
+        }
+    }
+
     /// All, to be changed.
     pub(crate) fn values_mut(&mut self) -> &mut [Vec<f32>] {
         self.version = identity::fresh();

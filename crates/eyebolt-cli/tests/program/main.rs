@@ -20,3 +20,4 @@ mod scene;
 mod simulate;
 mod simulate_flags;
 mod study;
+mod train;

@@ -15,7 +15,7 @@ pub const BACKGROUND: u8 = 0;
 pub const ARM: u8 = 1;
 /// The end-effector and every link below it.
 pub const END_EFFECTOR: u8 = 2;
-/// No depth, so nothing is known.
+/// Nobody can say: there is no depth; or, in images to learn from, a tool that no description has.
 pub const UNKNOWN: u8 = 255;
 
 /// Why nothing is segmented.

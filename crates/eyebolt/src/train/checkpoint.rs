@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 pub struct Checkpoint {
     /// The network and what its optimiser remembers.
     pub trainer: Trainer,
-    /// The best parameters by validation, once there was one.
+    /// The mean of the parameters of the last steps: what is validated and handed on.
+    pub averaged: Parameters,
+    /// The best of them by validation, once there was one.
     pub best: Option<Parameters>,
     /// The rest.
     pub progressed: Progressed,
@@ -47,15 +49,31 @@ impl Progressed {
 }
 
 const FILE: &str = "checkpoint";
-/// Parts of a file: lengths of three parts as 64 bits each, little-endian, then the parts.
-const PARTS: usize = 3;
+/// Parts of a file: lengths of the parts as 64 bits each, little-endian, then the parts.
+const PARTS: usize = 4;
+/// Share of the mean that a step leaves as it was, at most: it goes over the last few hundred steps.
+const KEPT: f32 = 0.995;
 
 impl Checkpoint {
+    /// A run that begins with these parameters.
+    pub fn new(trainer: Trainer, plan: &Plan) -> Self {
+        let averaged = trainer.parameters().clone();
+        Self { trainer, averaged, best: None, progressed: Progressed::new(plan) }
+    }
+
+    /// Takes the parameters after a step into the mean (Polyak and Juditsky, *Acceleration of stochastic
+    /// approximation by averaging*, 1992; with weights that fall, and over few steps at first).
+    pub fn average(&mut self) {
+        let steps = self.trainer.step_count() as f32;
+        let kept = KEPT.min(steps / (steps + 10.0));
+        self.averaged.approach(self.trainer.parameters(), 1.0 - kept);
+    }
+
     /// Notes what a validation found; whether it is the best so far.
     pub fn note(&mut self, value: f64, scores: &BTreeMap<String, f64>) -> bool {
         let is_best = self.progressed.best_value.is_none_or(|best| value > best);
         if is_best {
-            self.best = Some(self.trainer.parameters().clone());
+            self.best = Some(self.averaged.clone());
             self.progressed.best_value = Some(value);
             self.progressed.best_scores = scores.clone();
             self.progressed.without_better = 0;
@@ -76,7 +94,8 @@ impl Checkpoint {
             Some(best) => weights::to_bytes(graph, best)?,
             None => Vec::new(),
         };
-        let parts = [text, self.trainer.checkpoint(graph)?, best];
+        let averaged = weights::to_bytes(graph, &self.averaged)?;
+        let parts = [text, self.trainer.checkpoint(graph)?, averaged, best];
         let lengths = parts.iter().flat_map(|part| (part.len() as u64).to_le_bytes());
         Ok(lengths.chain(parts.iter().flatten().copied()).collect())
     }
@@ -87,7 +106,7 @@ impl Checkpoint {
     ///
     /// A cut file, another network's, another plan's.
     pub fn from_bytes(graph: &Graph, bytes: &[u8], plan: &Plan) -> Result<Self, TrainError> {
-        let [text, trainer, best] = split(bytes)?;
+        let [text, trainer, averaged, best] = split(bytes)?;
         let progressed: Progressed =
             serde_json::from_slice(text).map_err(|error| bad("state", error))?;
         if (progressed.steps, progressed.seed) != (plan.steps, plan.seed) {
@@ -99,8 +118,9 @@ impl Checkpoint {
             return Err(bad("plan", problem));
         }
         let trainer = Trainer::resume(graph, trainer)?;
+        let averaged = weights::from_bytes(graph, averaged)?;
         let best = (!best.is_empty()).then(|| weights::from_bytes(graph, best)).transpose()?;
-        Ok(Self { trainer, best, progressed })
+        Ok(Self { trainer, averaged, best, progressed })
     }
 
     /// Steps and seed of the run whose bytes these are.

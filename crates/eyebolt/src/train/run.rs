@@ -1,6 +1,6 @@
 //! A network while it is taught: steps, validations, checkpoints.
 
-use super::checkpoint::{Checkpoint, Progressed};
+use super::checkpoint::Checkpoint;
 use super::error::TrainError;
 use super::feed::Feed;
 use super::lesson::{Lesson, Plan};
@@ -78,7 +78,7 @@ impl Beginning<'_> {
             Self::Anew => {}
         }
         let trainer = Trainer::from_parameters(parameters, plan.rule, plan.schedule(), plan.seed);
-        Ok(Checkpoint { trainer, best: None, progressed: Progressed::new(plan) })
+        Ok(Checkpoint::new(trainer, plan))
     }
 }
 
@@ -107,13 +107,14 @@ pub fn teach<L: Lesson>(
             sum += state
                 .trainer
                 .step(&mut cpu, graph, &batch, |outputs| lesson.loss(outputs, &target))?;
+            state.average();
             count += 1;
             let step = state.trainer.step_count();
             progress.advance(step as usize, plan.steps as usize)?;
             if !step.is_multiple_of(plan.every) && step < plan.steps {
                 continue;
             }
-            let (scores, value) = lesson.validate(state.trainer.parameters(), &mut cpu)?;
+            let (scores, value) = lesson.validate(&state.averaged, &mut cpu)?;
             let is_best = state.note(value, &scores);
             keep.report(&Report {
                 step,
@@ -170,7 +171,7 @@ fn finished<L: Lesson>(lesson: &L, state: Checkpoint) -> Result<Model, TrainErro
     description.metrics = state.progressed.best_scores;
     let parameters: Parameters = match state.best {
         Some(best) => best,
-        None => state.trainer.parameters().clone(),
+        None => state.averaged,
     };
     Ok(Model::new(description, parameters)?)
 }
