@@ -7,7 +7,7 @@ use crate::progress::Counting;
 use anyhow::{Context, Result, bail};
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
-use eyebolt::segment::{ARM, BACKGROUND, END_EFFECTOR, Segmenter};
+use eyebolt::segment::{ARM, END_EFFECTOR, Segmenter};
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt segment`.
@@ -53,7 +53,6 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
         arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
         hand += usize::from(count(END_EFFECTOR) > 0);
-        debug_assert!(BACKGROUND == 0);
         let bytes = npy([found.height, found.width], &found.label);
         output::write_whole(&path(name), &bytes, arguments.force)?;
     }

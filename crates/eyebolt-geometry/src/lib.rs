@@ -31,7 +31,7 @@ pub use mean::{MeanError, intrinsic_mean_rotation, mean_rotation, mean_transform
 pub use normals::{NormalOptions, NormalsError, fast_normals, normals};
 pub use projection_fit::{ProjectionFit, ProjectionFitError, fit_projection};
 pub use ray_table::RayTable;
-pub use rigid_fit::rigid_fit;
+pub use rigid_fit::{Correspondence, rigid_fit};
 pub use tangent::{
     Tangent, left_jacobian, rotation_exp, rotation_left_jacobian, rotation_left_jacobian_inverse,
     rotation_log,

@@ -6,22 +6,32 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 /// which any turn fits.
 const LEAST_SPREAD: f64 = 1e-3;
 
-/// The motion that takes `from` closest to `to`, by weighted least squares (Arun, Huang and Blostein, *Least-
+/// A point, its counterpart, and how much the two count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correspondence {
+    /// The point.
+    pub from: Point3<f64>,
+    /// Its counterpart.
+    pub to: Point3<f64>,
+    /// How much they count; not negative.
+    pub weight: f64,
+}
+
+/// The motion that takes points closest to their counterparts, by weighted least squares (Arun, Huang and Blostein, *Least-
 /// squares fitting of two 3-D point sets*, PAMI 9, 1987; reflections corrected as by Umeyama, PAMI 13, 1991).
 ///
-/// `pairs` are a point, its counterpart and a weight that is not negative. `None` with fewer than three
-/// points of weight, with points on a line, or with a number that is not finite.
-pub fn rigid_fit(pairs: &[(Point3<f64>, Point3<f64>, f64)]) -> Option<Isometry3<f64>> {
-    let total: f64 = pairs.iter().map(|(.., weight)| weight).sum();
-    if pairs.iter().filter(|(.., weight)| *weight > 0.0).count() < 3 || !total.is_finite() {
+/// `None` with fewer than three points of weight, with points on a line, or with a number that is not finite.
+pub fn rigid_fit(pairs: &[Correspondence]) -> Option<Isometry3<f64>> {
+    let total: f64 = pairs.iter().map(|pair| pair.weight).sum();
+    if pairs.iter().filter(|pair| pair.weight > 0.0).count() < 3 || !total.is_finite() {
         return None;
     }
-    let mean = |of: &dyn Fn(&(Point3<f64>, Point3<f64>, f64)) -> Vector3<f64>| {
-        pairs.iter().map(|pair| pair.2 * of(pair)).sum::<Vector3<f64>>() / total
+    let mean = |of: fn(&Correspondence) -> Point3<f64>| {
+        pairs.iter().map(|pair| pair.weight * of(pair).coords).sum::<Vector3<f64>>() / total
     };
-    let (from, to) = (mean(&|pair| pair.0.coords), mean(&|pair| pair.1.coords));
-    let outer = |(a, b, weight): &(Point3<f64>, Point3<f64>, f64)| {
-        *weight * (b.coords - to) * (a.coords - from).transpose()
+    let (from, to) = (mean(|pair| pair.from), mean(|pair| pair.to));
+    let outer = |pair: &Correspondence| {
+        pair.weight * (pair.to.coords - to) * (pair.from.coords - from).transpose()
     };
     let covariance: Matrix3<f64> = pairs.iter().map(outer).sum::<Matrix3<f64>>() / total;
     if !covariance.iter().all(|value| value.is_finite()) {
@@ -30,7 +40,8 @@ pub fn rigid_fit(pairs: &[(Point3<f64>, Point3<f64>, f64)]) -> Option<Isometry3<
     let svd = covariance.svd(true, true);
     let (u, v_t) = (svd.u?, svd.v_t?);
     let values = svd.singular_values;
-    if !(values[1] > LEAST_SPREAD * values[0]) {
+    // Finite, as the covariance is.
+    if values[1] <= LEAST_SPREAD * values[0] {
         return None;
     }
     let mut turned = Matrix3::identity();
@@ -63,7 +74,7 @@ mod tests {
             let pairs: Vec<_> = points
                 .iter()
                 .zip(weights)
-                .map(|(point, weight)| (*point, motion * point, weight))
+                .map(|(from, weight)| Correspondence { from: *from, to: motion * from, weight })
                 .collect();
             let Some(found) = rigid_fit(&pairs) else { return Ok(()) };
             // Planar sets are as good as others; nearly collinear ones are ill-conditioned.
@@ -78,8 +89,9 @@ mod tests {
     #[test]
     fn points_on_a_plane_are_enough_and_those_on_a_line_are_not() {
         let motion = Isometry3::new(Vector3::new(0.1, 0.2, -0.3), Vector3::new(0.4, -1.2, 2.0));
-        let pairs = |points: &[[f64; 3]]| -> Vec<_> {
-            points.iter().map(|p| (Point3::from(*p), motion * Point3::from(*p), 1.0)).collect()
+        let pairs = |points: &[[f64; 3]]| -> Vec<Correspondence> {
+            let from = points.iter().map(|point| Point3::from(*point));
+            from.map(|from| Correspondence { from, to: motion * from, weight: 1.0 }).collect()
         };
         let flat = pairs(&[[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.1, 0.1, 0.0]]);
         let found = rigid_fit(&flat).unwrap();

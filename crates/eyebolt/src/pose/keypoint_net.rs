@@ -2,7 +2,7 @@
 
 use super::rotation_net::{PoseNetError, view_batch};
 use super::view::{EndEffectorView, VIEW_FEATURES};
-use eyebolt_geometry::{Camera, EndEffector, Link, Transform, rigid_fit};
+use eyebolt_geometry::{Camera, Correspondence, EndEffector, Link, Transform, rigid_fit};
 use eyebolt_net::models::{Architecture, Model};
 use eyebolt_net::{Cpu, Executor};
 use nalgebra::Point3;
@@ -84,6 +84,16 @@ impl KeypointNet {
     }
 }
 
+/// What a network said of a cell.
+struct Match {
+    /// The point of the end-effector that it shows, end-effector frame, metres.
+    of: Point3<f64>,
+    /// Where it is, the view's frame, metres.
+    seen: Point3<f64>,
+    /// Scale of a Laplace distribution about it, metres.
+    scale_m: f64,
+}
+
 /// The pose `view_from_end_effector` that the cells of `view` agree on, by what the network said of each, and
 /// the median distance from it, metres.
 ///
@@ -94,29 +104,32 @@ pub fn matched_pose(
     outputs: &[&[f32]],
 ) -> Option<(Transform<Link, EndEffector>, f64)> {
     let half_m = f64::from(view.half_m);
-    let pair = |(point, row): (&[f32; 3], &&[f32])| {
+    let matched = |(point, row): (&[f32; 3], &&[f32])| {
         let row = &row[row.len().saturating_sub(POINT_OUTPUTS.len())..];
         let of = [0, 1, 2].map(|axis| half_m * f64::from(row[axis]));
-        let scale_m = (half_m * f64::from(row[3]).exp()).max(1e-3);
-        (Point3::from(of), Point3::from(*point).cast::<f64>(), scale_m)
+        Match {
+            of: Point3::from(of),
+            seen: Point3::from(*point).cast::<f64>(),
+            scale_m: (half_m * f64::from(row[3]).exp()).max(1e-3),
+        }
     };
-    let pairs: Vec<_> = view.points_m.iter().zip(outputs).map(pair).collect();
-    if pairs.len() < FEWEST {
+    let matches: Vec<Match> = view.points_m.iter().zip(outputs).map(matched).collect();
+    if matches.len() < FEWEST {
         return None;
     }
-    let weighted = |weight: &dyn Fn(&(Point3<f64>, Point3<f64>, f64)) -> f64| {
-        let pairs: Vec<_> = pairs.iter().map(|pair| (pair.0, pair.1, weight(pair))).collect();
-        rigid_fit(&pairs)
+    let fit_by = |weight: &dyn Fn(&Match) -> f64| {
+        let pair = |of: &Match| Correspondence { from: of.of, to: of.seen, weight: weight(of) };
+        rigid_fit(&matches.iter().map(pair).collect::<Vec<_>>())
     };
-    let mut fit = weighted(&|(.., scale)| scale.powi(-2))?;
+    let mut fit = fit_by(&|of| of.scale_m.powi(-2))?;
     for _ in 0..STEPS {
         let here = fit;
-        fit = weighted(&|(of, seen, scale)| {
-            let off = (here * of - seen).norm();
-            1.0 / (scale * scale * (1.0 + off / scale))
+        fit = fit_by(&|of| {
+            let off = (here * of.of - of.seen).norm();
+            1.0 / (of.scale_m * of.scale_m * (1.0 + off / of.scale_m))
         })?;
     }
-    let mut off: Vec<f64> = pairs.iter().map(|(of, seen, _)| (fit * of - seen).norm()).collect();
+    let mut off: Vec<f64> = matches.iter().map(|of| (fit * of.of - of.seen).norm()).collect();
     let middle = off.len() / 2;
     let residual_m = *off.select_nth_unstable_by(middle, f64::total_cmp).1;
     Some((Transform::from_isometry(fit), residual_m))

@@ -51,7 +51,7 @@ impl EndEffectorView {
             }
             let held = &mut image[v as usize * CELLS + u as usize];
             // The nearest of a cell: what is behind it shines through between pixels.
-            if !(held[2] <= p.z) {
+            if held[2].is_nan() || p.z < held[2] {
                 *held = [p.x, p.y, p.z];
             }
         }

@@ -54,8 +54,7 @@ impl<T: Send> Feed<T> {
         Self { workers: workers.collect(), next: 0, taken: 0, waited_for: 0 }
     }
 
-    /// The next batch; `None` after the last.
-    pub fn next(&mut self) -> Option<Result<T, TrainError>> {
+    fn next_batch(&mut self) -> Option<Result<T, TrainError>> {
         let worker = &self.workers[(self.next % self.workers.len() as u64) as usize];
         self.next += 1;
         let there = worker.try_recv().ok();
@@ -67,6 +66,14 @@ impl<T: Send> Feed<T> {
     }
 }
 
+impl<T: Send> Iterator for Feed<T> {
+    type Item = Result<T, TrainError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.next_batch()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,8 +82,9 @@ mod tests {
     fn batches_come_in_order_from_any_number_of_threads() {
         for threads in [1, 2, 3] {
             let got: Vec<u64> = std::thread::scope(|scope| {
-                let mut feed = Feed::start(scope, threads, (5, 22), |index| Ok(index * index));
-                std::iter::from_fn(|| feed.next()).map(Result::unwrap).collect()
+                Feed::start(scope, threads, (5, 22), |index| Ok(index * index))
+                    .map(Result::unwrap)
+                    .collect()
             });
             assert_eq!(got, (5..22).map(|index| index * index).collect::<Vec<u64>>());
         }
@@ -89,8 +97,7 @@ mod tests {
                 3 => Err(TrainError::NothingToSee { tries: 1 }),
                 _ => Ok(index),
             };
-            let mut feed = Feed::start(scope, 2, (0, 1_000_000), make);
-            let first: Vec<_> = (0..4).filter_map(|_| feed.next()).collect();
+            let first: Vec<_> = Feed::start(scope, 2, (0, 1_000_000), make).take(4).collect();
             assert!(first[3].is_err() && first[..3].iter().all(Result::is_ok));
         });
     }

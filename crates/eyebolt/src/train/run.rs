@@ -152,10 +152,10 @@ pub fn pace<L: Lesson>(
     let mut trainer = Trainer::new(graph, plan.rule, plan.schedule(), plan.seed);
     std::thread::scope(|scope| {
         let span = (0, STEPS[0] + STEPS[1]);
-        let mut feed = Feed::start(scope, plan.threads, span, |step| lesson.batch(step));
+        let feed = Feed::start(scope, plan.threads, span, |step| lesson.batch(step));
         let mut cpu = Cpu::new();
         let mut begun = clock();
-        while let Some(batch) = feed.next() {
+        for batch in feed {
             let (batch, target) = batch?;
             trainer.step(&mut cpu, graph, &batch, |outputs| lesson.loss(outputs, &target))?;
             if trainer.step_count() == STEPS[0] {
