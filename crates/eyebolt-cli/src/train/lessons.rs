@@ -83,6 +83,7 @@ fn segmentation(
 ) -> Result<()> {
     let net = arguments.preset.segmentation(classes)?;
     let mut lesson = SegmentationLesson::new(images, arguments.preset.grid(), net, arguments.seed)?;
+    lesson.images = arguments.preset.images();
     lesson.trained_on = about.to_owned();
     finish(arguments, &lesson, folder, progress)
 }

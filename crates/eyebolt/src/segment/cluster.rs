@@ -1,6 +1,6 @@
 //! An arm is one thing, and so is its end-effector.
 
-use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
+use eyebolt_geometry::{DepthImage, RayTable};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
@@ -17,12 +17,11 @@ type Cell = [i32; 3];
 pub fn keep_largest_cluster(
     label: &mut [u8],
     depth: &DepthImage,
-    camera: &PinholeCamera,
+    rays: &RayTable,
     linkage_m: f32,
     of: impl Fn(u8) -> bool,
     instead: u8,
 ) {
-    let rays = RayTable::new(camera);
     // Half the length: cells that touch hold points within it.
     let cell = |at: usize| {
         let point = rays.point(at, depth.depth_m()[at]);
@@ -82,13 +81,14 @@ fn around(cell: Cell) -> impl Iterator<Item = Cell> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eyebolt_geometry::Distortion;
+    use eyebolt_geometry::{Distortion, PinholeCamera};
 
     /// Three patches of a wall: two a little apart hang together, the third is elsewhere and smaller.
     #[test]
     fn the_largest_stays_with_what_is_near_it() {
         let camera =
             PinholeCamera::new(100, 40, 100.0, 100.0, 49.5, 19.5, Distortion::None).unwrap();
+        let rays = RayTable::new(&camera);
         let depth = DepthImage::new(100, 40, vec![1.0; 4000]).unwrap();
         // A pixel is 1 cm wide.
         let patch = |at: usize| match at % 100 {
@@ -98,11 +98,11 @@ mod tests {
             _ => 0,
         };
         let mut label: Vec<u8> = (0..4000).map(patch).collect();
-        keep_largest_cluster(&mut label, &depth, &camera, 0.06, |label| label == 2, 1);
+        keep_largest_cluster(&mut label, &depth, &rays, 0.06, |label| label == 2, 1);
         for (at, found) in label.iter().enumerate() {
             let wanted = if (70..85).contains(&(at % 100)) { 1 } else { patch(at) };
             assert_eq!(*found, wanted, "{}", at % 100);
         }
-        keep_largest_cluster(&mut [0; 4000], &depth, &camera, 0.06, |label| label == 2, 1);
+        keep_largest_cluster(&mut [0; 4000], &depth, &rays, 0.06, |label| label == 2, 1);
     }
 }

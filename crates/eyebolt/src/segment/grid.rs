@@ -21,10 +21,9 @@ pub enum Grid {
     },
 }
 
-/// Columns of the images whose points fill fine voxels, and coarse ones: more would not be told apart.
-const COLUMNS: [usize; 2] = [640, 320];
-/// Voxels below are fine, metres.
-const FINE_M: f32 = 0.01;
+/// Columns of the images whose points fill voxels: of more, decoders of hundreds of channels would not fit
+/// into memory while they learn.
+const VOXEL_COLUMNS: usize = 320;
 
 impl Grid {
     /// That of a model, if it has one.
@@ -40,8 +39,7 @@ impl Grid {
     pub fn columns(self) -> usize {
         match self {
             Self::Image { columns } => columns,
-            Self::Voxels { edge_m } if edge_m < FINE_M => COLUMNS[0],
-            Self::Voxels { .. } => COLUMNS[1],
+            Self::Voxels { .. } => VOXEL_COLUMNS,
         }
     }
 

@@ -5,7 +5,7 @@ use super::features::FEATURES;
 use super::grid::Grid;
 use super::thinned::Thinned;
 use super::upsample::upsample;
-use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
 use eyebolt_net::models::{Architecture, Model};
 use eyebolt_net::{Cpu, Executor};
 
@@ -50,6 +50,8 @@ pub struct Segmenter {
     model: Model,
     executor: Cpu,
     grid: Grid,
+    /// Of the last camera: it is mostly the same.
+    rays: Option<(PinholeCamera, RayTable)>,
 }
 
 /// Labels of an image.
@@ -93,7 +95,7 @@ impl Segmenter {
         if !right {
             return other("classes", format!("{names:?} are not background, arm and end_effector"));
         }
-        Ok(Self { model, executor: Cpu::new(), grid })
+        Ok(Self { model, executor: Cpu::new(), grid, rays: None })
     }
 
     /// Whether the end-effector is told apart.
@@ -125,10 +127,15 @@ impl Segmenter {
         let Model { graph, parameters, .. } = &self.model;
         let outputs = self.executor.infer(graph, parameters, &batch)?;
         let mut label = upsample(depth, &image, &rows, &outputs[0]);
+        let table = match self.rays.take() {
+            Some((of, table)) if of == *camera => table,
+            _ => RayTable::new(camera),
+        };
         let arm = |label| label == ARM || label == END_EFFECTOR;
-        keep_largest_cluster(&mut label, depth, camera, ARM_LINKAGE_M, arm, BACKGROUND);
+        keep_largest_cluster(&mut label, depth, &table, ARM_LINKAGE_M, arm, BACKGROUND);
         let hand = |label| label == END_EFFECTOR;
-        keep_largest_cluster(&mut label, depth, camera, END_EFFECTOR_LINKAGE_M, hand, ARM);
+        keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, hand, ARM);
+        self.rays = Some((camera.clone(), table));
         Ok(Segmentation { width, height, label })
     }
 }

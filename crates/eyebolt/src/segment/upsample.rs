@@ -42,7 +42,7 @@ pub fn upsample(depth: &DepthImage, image: &Thinned, rows: &[usize], logits: &Ma
                         };
                         let off = (image.depth_m[at] - z) / (SAME_SURFACE * z);
                         let weight =
-                            (weight_u * weight_v + 0.01) * ((-0.5 * off * off).exp() + ELSEWHERE);
+                            (weight_u * weight_v + 0.01) * ((1.0 + off * off).powi(-2) + ELSEWHERE);
                         total += weight;
                         let logits = logits.row(row as usize);
                         sums.iter_mut().zip(logits).for_each(|(sum, logit)| *sum += weight * logit);

@@ -45,6 +45,14 @@ impl Preset {
         }
     }
 
+    /// Images of a step of the segmentation.
+    pub fn images(self) -> u64 {
+        match self {
+            Self::Default | Self::Voxels => 4,
+            Self::Paper => 1,
+        }
+    }
+
     /// The segmentation of so many classes.
     ///
     /// # Errors
