@@ -8,6 +8,7 @@ use anyhow::{Context, Result, bail};
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
 use eyebolt::segment::{ARM, END_EFFECTOR, Segmenter};
+use eyebolt_recording::write_npy;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt segment`.
@@ -53,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
         arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
         hand += usize::from(count(END_EFFECTOR) > 0);
-        let bytes = npy([found.height, found.width], &found.label);
+        let bytes = write_npy("|u1", &[found.height, found.width], found.label);
         output::write_whole(&path(name), &bytes, arguments.force)?;
     }
     drop(bar);
@@ -86,17 +87,4 @@ fn load(folder: &Path) -> Result<Segmenter> {
     let text = String::from_utf8_lossy(&read("model.toml")?).into_owned();
     let of = || format!("{}", folder.display());
     Segmenter::load(&text, &read("weights.safetensors")?).with_context(of)
-}
-
-/// A file of NumPy, version 1.0, of bytes, row by row.
-fn npy([height, width]: [usize; 2], values: &[u8]) -> Vec<u8> {
-    let header =
-        format!("{{'descr': '|u1', 'fortran_order': False, 'shape': ({height}, {width}), }}");
-    // Magic, version and length take ten bytes, a line break the last; numbers start at a multiple of 64.
-    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((length as u16).to_le_bytes());
-    bytes.extend(format!("{header:<width$}\n", width = length - 1).bytes());
-    bytes.extend(values);
-    bytes
 }

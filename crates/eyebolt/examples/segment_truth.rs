@@ -36,11 +36,15 @@ fn main() -> Result<(), Failure> {
         }
     };
     let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-segment-truth-links"));
-    let sensor = *Sensor::ALL.iter().find(|sensor| sensor.name == "kinect-v1").ok_or("no Kinect")?;
-    println!("scene     end-effector precision recall   arm precision recall   background precision recall");
+    let sensor =
+        *Sensor::ALL.iter().find(|sensor| sensor.name == "kinect-v1").ok_or("no Kinect")?;
+    println!(
+        "scene     end-effector precision recall   arm precision recall   background precision recall"
+    );
     for passers_by in [0, 3] {
         let mut confusion = Confusion::new(3);
-        for (index, preset) in PRESETS.iter().enumerate().filter(|(_, it)| it.name.contains("test")) {
+        for (index, preset) in PRESETS.iter().enumerate().filter(|(_, it)| it.name.contains("test"))
+        {
             let lab = Lab { passers_by, ..Lab::default() };
             let scenario = Scenario {
                 arm: &arm,
@@ -69,12 +73,17 @@ fn main() -> Result<(), Failure> {
             }
         }
         let [rest, arm, hand] = [0, 1, 2].map(|class| confusion.class(class));
-        let shown = |score: eyebolt::train::ClassScore| format!("{:.3} {:.3}", score.precision, score.recall);
+        let shown = |score: eyebolt::train::ClassScore| {
+            format!("{:.3} {:.3}", score.precision, score.recall)
+        };
         let scene = if passers_by > 0 { "people" } else { "plain" };
         let any = confusion.foreground();
         println!(
             "{scene:8}  {}   {}   {}   (whole arm IoU {:.3})",
-            shown(hand), shown(arm), shown(rest), any.iou
+            shown(hand),
+            shown(arm),
+            shown(rest),
+            any.iou
         );
     }
     Ok(())
