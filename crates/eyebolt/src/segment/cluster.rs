@@ -10,10 +10,17 @@ pub const END_EFFECTOR_LINKAGE_M: f32 = 0.06;
 /// Of an arm, across which depth fails in patches.
 pub const ARM_LINKAGE_M: f32 = 0.12;
 
+/// Pixels within this part of the image's width are beside each other: depth fails where one surface ends
+/// before another.
+const BESIDE: usize = 100;
+
 type Cell = [i32; 3];
 
 /// Leaves their labels to the largest cluster of the points whose label is `of`, by its area, and gives the
 /// others `instead`.
+///
+/// Points belong together that are near each other, or beside each other in the image: a forearm before its
+/// upper arm is far from what it hides, and touches it.
 pub fn keep_largest_cluster(
     label: &mut [u8],
     depth: &DepthImage,
@@ -34,7 +41,8 @@ pub fn keep_largest_cluster(
         // A pixel covers an area that grows with the square of its depth.
         *areas.entry(*cell).or_default() += f64::from(depth.depth_m()[*at]).powi(2);
     }
-    let clusters = clusters(&areas);
+    let mut clusters = clusters(&areas);
+    join_neighbours(&mut clusters, &points, depth.width() as usize);
     let mut sizes: BTreeMap<usize, f64> = BTreeMap::new();
     areas.iter().for_each(|(cell, area)| *sizes.entry(clusters[cell]).or_default() += area);
     // The first of equally large ones.
@@ -71,6 +79,37 @@ fn clusters(cells: &BTreeMap<Cell, f64>) -> BTreeMap<Cell, usize> {
     of
 }
 
+/// Makes one of clusters that are beside each other in the image. `points` are in the order of their pixels.
+fn join_neighbours(
+    clusters: &mut BTreeMap<Cell, usize>,
+    points: &[(usize, Cell)],
+    width: usize,
+) {
+    let beside_px = width / BESIDE + 1;
+    let mut into: Vec<usize> = (0..clusters.len()).collect();
+    let root = |into: &[usize], mut of: usize| {
+        while into[of] != of {
+            of = into[of];
+        }
+        of
+    };
+    // Of each column, the last pixel and its cluster; and of the row.
+    let mut above: Vec<Option<(usize, usize)>> = vec![None; width];
+    let mut before: Option<(usize, usize)> = None;
+    for (at, cell) in points {
+        let (u, v, cluster) = (at % width, at / width, clusters[cell]);
+        let left = before.filter(|(other, _)| other / width == v && at - other <= beside_px);
+        let up = above[u].filter(|(row, _)| v - row <= beside_px);
+        for (_, other) in left.into_iter().chain(up) {
+            let (a, b) = (root(&into, cluster), root(&into, other));
+            into[a.max(b)] = a.min(b);
+        }
+        before = Some((*at, cluster));
+        above[u] = Some((v, cluster));
+    }
+    clusters.values_mut().for_each(|cluster| *cluster = root(&into, *cluster));
+}
+
 fn around(cell: Cell) -> impl Iterator<Item = Cell> {
     (0..27).map(move |step| {
         let by = [step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1];
@@ -103,6 +142,13 @@ mod tests {
             let wanted = if (70..85).contains(&(at % 100)) { 1 } else { patch(at) };
             assert_eq!(*found, wanted, "{}", at % 100);
         }
+        // The third is farther away, and touches the second in the image.
+        let depth_m = (0..4000).map(|at| if at % 100 < 52 { 1.0 } else { 2.0 }).collect();
+        let depth = DepthImage::new(100, 40, depth_m).unwrap();
+        let patch = |at: usize| u8::from((33..70).contains(&(at % 100)));
+        let mut label: Vec<u8> = (0..4000).map(patch).collect();
+        keep_largest_cluster(&mut label, &depth, &rays, 0.06, |label| label == 1, 0);
+        assert!((0..4000).all(|at| label[at] == patch(at)));
         keep_largest_cluster(&mut [0; 4000], &depth, &rays, 0.06, |label| label == 2, 1);
     }
 }
