@@ -9,10 +9,9 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 /// Names of the outputs of networks that regress a quaternion, as in the paper.
 pub const QUATERNION: [&str; 4] = ["x", "y", "z", "w"];
-/// Cells of a mode: within this angle of its highest, radians.
-const MODE_RAD: f64 = 0.45;
-/// Modes are told apart by this angle at least, radians.
-const APART_RAD: f64 = 0.60;
+/// A mode takes the cells within this angle of its highest, radians: three standard deviations of what the
+/// network is taught.
+const MODE_RAD: f64 = 0.6;
 /// Modes that are told, and the least probability of one beside the first.
 const MOST_MODES: usize = 5;
 const LEAST_PROBABILITY: f64 = 0.05;
@@ -86,26 +85,19 @@ fn modes(rotations: &[UnitQuaternion<f64>], logits: &[f32]) -> Vec<(UnitQuaterni
     let largest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let weights: Vec<f64> = logits.iter().map(|logit| f64::from(logit - largest).exp()).collect();
     let total: f64 = weights.iter().sum();
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
-    let mut tops: Vec<usize> = Vec::new();
-    for at in order {
-        if tops.len() == MOST_MODES {
-            break;
-        }
-        if tops.iter().all(|top| rotations[at].angle_to(&rotations[*top]) > APART_RAD) {
-            tops.push(at);
-        }
-    }
-    let mode = |top: usize| {
-        let near =
-            (0..rotations.len()).filter(|at| rotations[*at].angle_to(&rotations[top]) < MODE_RAD);
-        let (near, shares): (Vec<_>, Vec<f64>) =
-            near.map(|at| (rotations[at], weights[at])).unzip();
+    let mut left: Vec<usize> = (0..weights.len()).collect();
+    let mut found = Vec::new();
+    while found.len() < MOST_MODES {
+        let highest = left.iter().max_by(|a, b| weights[**a].total_cmp(&weights[**b]).then(b.cmp(a)));
+        let Some(&top) = highest else { break };
+        let near = |at: &usize| rotations[*at].angle_to(&rotations[top]) < MODE_RAD;
+        let (of_mode, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(near);
+        left = others;
+        let cells: Vec<_> = of_mode.iter().map(|at| rotations[*at]).collect();
+        let shares: Vec<f64> = of_mode.iter().map(|at| weights[*at]).collect();
         let probability = shares.iter().sum::<f64>() / total;
-        (mean_rotation(&near, Some(&shares)).unwrap_or(rotations[top]), probability)
-    };
-    let mut found: Vec<_> = tops.into_iter().map(mode).collect();
+        found.push((mean_rotation(&cells, Some(&shares)).unwrap_or(rotations[top]), probability));
+    }
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let first = found.first().copied();
     let likely =

@@ -90,6 +90,7 @@ fn median(points: &[[f32; 3]]) -> Option<[f64; 3]> {
 fn normal(image: &[[f32; 3]], at: usize) -> [f32; 3] {
     let (u, v) = (at % CELLS, at / CELLS);
     const STEP_M: f32 = 0.02;
+    const LEAST_SINE: f32 = 0.2;
     let seen = |u: i64, v: i64| -> Option<[f32; 3]> {
         let inside = |value: i64| (0..CELLS as i64).contains(&value);
         let found = (inside(u) && inside(v)).then(|| image[v as usize * CELLS + u as usize])?;
@@ -104,7 +105,12 @@ fn normal(image: &[[f32; 3]], at: usize) -> [f32; 3] {
         (a != b).then(|| Vector3::new(b[0] - a[0], b[1] - a[1], b[2] - a[2]))
     };
     let (Some(across), Some(down)) = (along(1, 0), along(0, 1)) else { return [0.0; 3] };
-    down.cross(&across).try_normalize(1e-12).map_or([0.0; 3], Into::into)
+    let normal = down.cross(&across);
+    // Points may lie anywhere in their cells, and three of them on a line.
+    if normal.norm() < LEAST_SINE * across.norm() * down.norm() {
+        return [0.0; 3];
+    }
+    normal.normalize().into()
 }
 
 #[cfg(test)]
