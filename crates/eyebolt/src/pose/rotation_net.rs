@@ -1,17 +1,18 @@
 //! How an end-effector is turned, by what a network learned of it.
 
 use super::view::{EndEffectorView, VIEW_FEATURES};
-use eyebolt_geometry::mean_rotation;
 use eyebolt_net::models::{Architecture, Model};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix};
 use eyebolt_registration::spread_rotations;
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Matrix4, Quaternion, SMatrix, SVector, UnitQuaternion};
 
 /// Names of the outputs of networks that regress a quaternion, as in the paper.
 pub const QUATERNION: [&str; 4] = ["x", "y", "z", "w"];
 /// A mode takes the cells within this angle of its highest, radians: three standard deviations of what the
 /// network is taught.
 const MODE_RAD: f64 = 0.6;
+/// Its peak is found by the cells within this angle, radians.
+const FIT_RAD: f64 = 0.9;
 /// Modes that are told, and the least probability of one beside the first.
 const MOST_MODES: usize = 5;
 const LEAST_PROBABILITY: f64 = 0.05;
@@ -88,15 +89,18 @@ fn modes(rotations: &[UnitQuaternion<f64>], logits: &[f32]) -> Vec<(UnitQuaterni
     let mut left: Vec<usize> = (0..weights.len()).collect();
     let mut found = Vec::new();
     while found.len() < MOST_MODES {
-        let highest = left.iter().max_by(|a, b| weights[**a].total_cmp(&weights[**b]).then(b.cmp(a)));
+        let highest =
+            left.iter().max_by(|a, b| weights[**a].total_cmp(&weights[**b]).then(b.cmp(a)));
         let Some(&top) = highest else { break };
         let near = |at: &usize| rotations[*at].angle_to(&rotations[top]) < MODE_RAD;
         let (of_mode, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(near);
         left = others;
-        let cells: Vec<_> = of_mode.iter().map(|at| rotations[*at]).collect();
-        let shares: Vec<f64> = of_mode.iter().map(|at| weights[*at]).collect();
-        let probability = shares.iter().sum::<f64>() / total;
-        found.push((mean_rotation(&cells, Some(&shares)).unwrap_or(rotations[top]), probability));
+        let probability = of_mode.iter().map(|at| weights[*at]).sum::<f64>() / total;
+        let around =
+            (0..weights.len()).filter(|at| rotations[*at].angle_to(&rotations[top]) < FIT_RAD);
+        let around: Vec<_> = around.map(|at| (rotations[at], weights[at])).collect();
+        let peak = peak(&around).filter(|peak| peak.angle_to(&rotations[top]) < MODE_RAD);
+        found.push((peak.unwrap_or(rotations[top]), probability));
     }
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let first = found.first().copied();
@@ -104,6 +108,38 @@ fn modes(rotations: &[UnitQuaternion<f64>], logits: &[f32]) -> Vec<(UnitQuaterni
         found.into_iter().skip(1).filter(|(_, probability)| *probability >= LEAST_PROBABILITY);
     first.into_iter().chain(likely).collect()
 }
+
+/// Where a Bingham distribution peaks that has these densities: their logarithms are a quadratic form of the
+/// quaternion, found by least squares weighted by the densities; its largest eigenvector is the peak.
+///
+/// Targets are of this form exactly, as the cosine of an angle between rotations is one; a mean over the cells of a
+/// coarse grid would be drawn to where they lie denser.
+fn peak(cells: &[(UnitQuaternion<f64>, f64)]) -> Option<UnitQuaternion<f64>> {
+    const LEAST_WEIGHT: f64 = 1e-12;
+    let mut normal = SMatrix::<f64, 10, 10>::identity() * 1e-9;
+    let mut right = SVector::<f64, 10>::zeros();
+    for (cell, weight) in cells.iter().filter(|(_, weight)| *weight > LEAST_WEIGHT) {
+        let q = cell.coords;
+        let form = PAIRS.map(|(i, j)| q[i] * q[j]);
+        let form = SVector::<f64, 10>::from(form);
+        normal += *weight * form * form.transpose();
+        right += *weight * weight.ln() * form;
+    }
+    let found = normal.cholesky()?.solve(&right);
+    let mut form = Matrix4::zeros();
+    for ((i, j), value) in PAIRS.into_iter().zip(found.iter()) {
+        form[(i, j)] += 0.5 * value;
+        form[(j, i)] += 0.5 * value;
+    }
+    let eigen = form.symmetric_eigen();
+    let vector = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    let [x, y, z, w] = [0, 1, 2, 3].map(|axis| vector[axis]);
+    UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
+}
+
+/// Products of a quadratic form of four numbers.
+const PAIRS: [(usize, usize); 10] =
+    [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 impl RotationNet {
     /// Of a model.
@@ -170,11 +206,11 @@ mod tests {
         let found = Decoder::of(1152).modes(&logits);
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].0.angle_to(&right).to_degrees() < 2.5,
+            found[0].0.angle_to(&right).to_degrees() < 1.0,
             "{:?}",
             found[0].0.angle_to(&right).to_degrees()
         );
-        assert!(found[1].0.angle_to(&twin).to_degrees() < 2.5);
-        assert!((found[0].1 / found[1].1 - 2.0).abs() < 0.4, "{found:?}");
+        assert!(found[1].0.angle_to(&twin).to_degrees() < 1.0);
+        assert!((found[0].1 / found[1].1 - 2.0).abs() < 0.6, "{found:?}");
     }
 }

@@ -148,7 +148,7 @@ mod tests {
                 }
             }
         }
-        assert!(known > 2000, "{known}");
+        assert!(known > 1500, "{known}");
         // Cells at the rim of a raster may differ; nothing else does.
         let same = views[0].cells.iter().filter(|cell| views[1].cells.contains(cell)).count();
         assert!(same as f64 > 0.95 * views[0].cells.len() as f64);

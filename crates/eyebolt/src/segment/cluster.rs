@@ -80,11 +80,7 @@ fn clusters(cells: &BTreeMap<Cell, f64>) -> BTreeMap<Cell, usize> {
 }
 
 /// Makes one of clusters that are beside each other in the image. `points` are in the order of their pixels.
-fn join_neighbours(
-    clusters: &mut BTreeMap<Cell, usize>,
-    points: &[(usize, Cell)],
-    width: usize,
-) {
+fn join_neighbours(clusters: &mut BTreeMap<Cell, usize>, points: &[(usize, Cell)], width: usize) {
     let beside_px = width / BESIDE + 1;
     let mut into: Vec<usize> = (0..clusters.len()).collect();
     let root = |into: &[usize], mut of: usize| {
