@@ -66,7 +66,9 @@ impl SegmentationLesson {
     }
 
     fn shots(&self, stream: u64, step: u64) -> Result<Vec<Shot>, TrainError> {
-        let framing = Framing { columns: self.grid.columns(), ..Framing::ARM };
+        let with_end_effector = self.classes.len() > 2;
+        let columns = self.grid.columns();
+        let framing = Framing { columns, with_end_effector, ..Framing::ARM };
         let random = Random::new(self.seed).at(stream).at(step);
         let mut shots = self.source.shots(random, self.images, framing)?;
         if self.classes.len() < 3 {

@@ -46,15 +46,19 @@ pub struct Framing {
     pub columns: usize,
     /// Whether the camera looks at the end-effector, from near, instead of at the arm.
     pub at_end_effector: bool,
+    /// Whether most images of the arm have to show its end-effector, too.
+    pub with_end_effector: bool,
     /// Whether depth is what a camera makes of it, or as it is.
     pub faults: bool,
 }
 
 impl Framing {
     /// The arm in its room, as a segmentation sees it.
-    pub const ARM: Self = Self { columns: 160, at_end_effector: false, faults: true };
+    pub const ARM: Self =
+        Self { columns: 160, at_end_effector: false, with_end_effector: false, faults: true };
     /// The part of an image with the end-effector.
-    pub const AT_END_EFFECTOR: Self = Self { columns: 112, at_end_effector: true, faults: true };
+    pub const AT_END_EFFECTOR: Self =
+        Self { columns: 112, at_end_effector: true, with_end_effector: true, faults: true };
 }
 
 /// Images drawn until one shows the arm, and rooms until all images do.
@@ -63,6 +67,10 @@ const ROOMS: u64 = 5;
 /// Share of the image that the arm, or the end-effector, takes at least, and how often it may be less.
 const LEAST_SHARE: f64 = 0.01;
 const NOTHING: f64 = 0.02;
+/// Share of the image that an end-effector takes at least where it has to be seen, and of the images in which
+/// it has to be: 80 of 160 x 120 pixels can tell what they are.
+const LEAST_END_EFFECTOR: f64 = 0.004;
+const WITH_END_EFFECTOR: f64 = 0.75;
 /// Pixels that the faults of a camera leave at least.
 const FEWEST_PIXELS: usize = 64;
 /// Images that an arm which is made up is in, before the next is made.
@@ -154,6 +162,10 @@ fn in_view(actor: &Actor, random: Random, framing: Framing) -> Option<Drawing<'_
         false => drawing.share_of(|_| true),
     };
     let nothing = !framing.at_end_effector && style.uniform() < NOTHING;
+    if framing.with_end_effector && style.uniform() < WITH_END_EFFECTOR {
+        let hand = drawing.share_of(|label| label == END_EFFECTOR);
+        return (hand >= LEAST_END_EFFECTOR).then_some(drawing);
+    }
     (share >= LEAST_SHARE || nothing).then_some(drawing)
 }
 
