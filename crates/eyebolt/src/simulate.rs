@@ -29,6 +29,7 @@ mod true_arm;
 mod true_view;
 mod viewpoint;
 
+pub(crate) use body::rests;
 pub use error::SimulateError;
 pub use faults::Faults;
 pub use lab::{Lab, SecondArm};

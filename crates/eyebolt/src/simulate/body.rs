@@ -51,19 +51,10 @@ impl ArmBody {
         });
         let meshes: Vec<TriangleMesh> = meshes.collect::<Result<_, record::RecordError>>()?;
         let end_effector = arm.end_effector_links();
-        let rests = links.iter().map(|link| {
-            let mut at = *link;
-            while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
-                if robot.joints[joint].moves() {
-                    return false;
-                }
-                at = parent;
-            }
-            true
-        });
+        let resting = links.iter().map(|link| rests(&arm, *link));
         let mut body = Self {
             is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
-            rests: rests.collect(),
+            rests: resting.collect(),
             spheres: meshes.iter().map(sphere).collect(),
             arm,
             may_touch: Vec::new(),
@@ -202,6 +193,19 @@ impl ArmBody {
         let pose = self.arm.base_from_end_effector(joints).ok()?;
         Some(camera_from_base.point(&Point3::from(pose.translation_m())))
     }
+}
+
+/// Whether no joint moves `link`, which is below the base of `arm`, in the base.
+pub fn rests(arm: &Arm, link: usize) -> bool {
+    let robot = arm.robot();
+    let mut at = link;
+    while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
+        if robot.joints[joint].moves() {
+            return false;
+        }
+        at = parent;
+    }
+    true
 }
 
 /// A sphere around `mesh`.

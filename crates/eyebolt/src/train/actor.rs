@@ -1,7 +1,9 @@
 //! An arm to be drawn in many postures.
 
 use super::error::TrainError;
+use crate::end_effector::BoundingBox;
 use crate::record;
+use crate::simulate::rests;
 use eyebolt_geometry::{Base, Camera, EndEffector, Link, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{PosedMesh, Random, Raster};
@@ -134,29 +136,14 @@ impl Actor {
     /// The lowest point of the arm but for the shapes that no joint moves, base frame, metres.
     pub fn lowest_m(&self, pose: &Pose) -> f64 {
         let moved = self.meshes.iter().zip(&pose.base_from_link).zip(&self.links);
-        let moved = moved.filter(|(_, link)| !self.rests(**link));
+        let moved = moved.filter(|(_, link)| !rests(&self.arm, **link));
         let corners = moved.flat_map(|((mesh, base_from_link), _)| {
-            let bounds = mesh.bounds().map(|(low, high)| corners(low, high));
-            let there = |corner: &Point3<f64>| base_from_link.point(corner).z;
-            bounds.into_iter().flatten().map(|corner| there(&corner)).collect::<Vec<_>>()
+            let bounds = mesh.bounds();
+            let around =
+                bounds.map(|(low, high)| BoundingBox { low: low.cast(), high: high.cast() });
+            let corners = around.into_iter().flat_map(|around| around.corners());
+            corners.map(|corner| base_from_link.point(&corner).z)
         });
         corners.fold(f64::INFINITY, f64::min)
     }
-
-    fn rests(&self, link: usize) -> bool {
-        let robot = self.arm.robot();
-        let mut at = link;
-        while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != self.arm.base()) {
-            if robot.joints[joint].moves() {
-                return false;
-            }
-            at = parent;
-        }
-        true
-    }
-}
-
-fn corners(low: Point3<f32>, high: Point3<f32>) -> Vec<Point3<f64>> {
-    let pick = |bit: usize, axis: usize| f64::from(if bit == 0 { low[axis] } else { high[axis] });
-    (0..8).map(|n| Point3::new(pick(n & 1, 0), pick(n & 2, 1), pick(n & 4, 2))).collect()
 }
