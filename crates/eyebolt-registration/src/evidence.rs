@@ -11,7 +11,7 @@ pub(crate) use kind::{EvidenceKind, Factor};
 pub use kind::{Presentation, Reach};
 pub(crate) use kinds::KINDS;
 pub use kinds::presentation;
-pub(crate) use posed::{PosedArm, PosedView};
+pub(crate) use posed::{PosedArm, PosedView, moved_by_base};
 
 #[cfg(test)]
 mod tests;

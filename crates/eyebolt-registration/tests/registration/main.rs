@@ -3,6 +3,7 @@
 mod cache;
 mod distance_field;
 mod facets;
+mod icp;
 mod interpolation;
 mod joint_offsets;
 mod left_out;
