@@ -12,6 +12,7 @@ mod label;
 mod logging;
 mod names;
 mod output;
+mod pose;
 mod progress;
 mod segment;
 mod shell;
@@ -72,6 +73,10 @@ enum Command {
     Train(train::Arguments),
     /// Say of each pixel of a recording whether it is the arm, by a network
     Segment(segment::Arguments),
+    /// Say where the end-effector is in each frame, by networks and the mesh: no calibration, no joint states
+    ///
+    /// A frame that does not tell, or tells two poses alike, says so and why.
+    Pose(Box<pose::Arguments>),
     /// Label every frame of recordings, for networks to learn from: arm, end-effector, keypoints, pose
     ///
     /// Each recording is calibrated from nothing, or by --calibration, and every frame at rest is labelled
@@ -95,6 +100,7 @@ fn main() -> ExitCode {
         Command::Study(arguments) => study::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
         Command::Segment(arguments) => segment::run(&arguments),
+        Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };

@@ -4,12 +4,12 @@ use crate::ending::Ending;
 use crate::inputs::{RecordingArguments, use_threads};
 use crate::output;
 use crate::progress::Counting;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
 use eyebolt::segment::{ARM, END_EFFECTOR, Segmenter};
 use eyebolt_recording::write_npy;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Options of `eyebolt segment`.
 #[derive(Debug, clap::Args)]
@@ -33,7 +33,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
-    let mut segmenter = load(&arguments.model)?;
+    let mut segmenter = Segmenter::open(&arguments.model)?;
     let recording = arguments.recording.open()?;
     let names = recording.frame_names().to_vec();
     let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
@@ -68,23 +68,4 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         output::complain(&format!("note: {left_out} damaged frames left out"));
     }
     Ok(Ending::Done)
-}
-
-/// The segmentation in the folder of a model, or in that of the network itself.
-fn load(folder: &Path) -> Result<Segmenter> {
-    let inner = folder.join("segmentation");
-    let folder = if inner.is_dir() { inner.as_path() } else { folder };
-    let read = |name: &str| {
-        let path = folder.join(name);
-        let failed = || {
-            format!(
-                "{}: cannot read it. Name the folder of a model with --model, or make one with eyebolt train",
-                path.display()
-            )
-        };
-        std::fs::read(&path).with_context(failed)
-    };
-    let text = String::from_utf8_lossy(&read("model.toml")?).into_owned();
-    let of = || format!("{}", folder.display());
-    Segmenter::load(&text, &read("weights.safetensors")?).with_context(of)
 }

@@ -48,6 +48,7 @@ fn main() -> Result<(), Failure> {
     let mut description = ModelDescription {
         voxel_m: Some(VOXEL_M),
         image_columns: None,
+        window_m: None,
         features: vec!["one".into()],
         classes: vec!["ball".into(), "box".into()],
         frame: "scene".into(),

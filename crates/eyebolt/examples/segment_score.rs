@@ -15,9 +15,7 @@ type Failure = Box<dyn std::error::Error>;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let model = arguments.next().ok_or("give MODEL FOLDER...")?;
-    let read = |name: &str| std::fs::read(Path::new(&model).join(name));
-    let text = String::from_utf8(read("model.toml")?)?;
-    let mut segmenter = Segmenter::load(&text, &read("weights.safetensors")?)?;
+    let mut segmenter = Segmenter::open(Path::new(&model))?;
     for folder in arguments {
         let recording = Recording::open(folder.as_ref(), &BagOptions::default())?;
         let camera = recording.camera().ok_or("a recording of depth images is needed")?;

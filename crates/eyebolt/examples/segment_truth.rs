@@ -22,9 +22,7 @@ const CONFIGURATIONS: usize = 6;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let model = arguments.next().ok_or("give MODEL [ROBOT.urdf]")?;
-    let read = |name: &str| std::fs::read(Path::new(&model).join("segmentation").join(name));
-    let text = String::from_utf8(read("model.toml")?)?;
-    let mut segmenter = Segmenter::load(&text, &read("weights.safetensors")?)?;
+    let mut segmenter = Segmenter::open(Path::new(&model))?;
     let (arm, urdf) = match arguments.next() {
         Some(path) => {
             let robot = Robot::from_urdf_file(path.as_ref(), &PackageRoots::new())?;

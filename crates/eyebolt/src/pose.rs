@@ -1,16 +1,31 @@
 //! Where the base may be: hypotheses for `camera_from_base`; and what networks say of the end-effector.
 
+mod estimator;
 mod global_search;
+mod hypotheses;
+mod judge;
 mod keypoint_net;
+mod method;
+mod observed;
+mod open;
 mod patches;
 mod proposer;
 mod rotation_net;
+mod shape;
+mod trust;
 mod view;
 
+pub use estimator::{PoseAnswer, PoseEstimator};
 pub use global_search::GlobalSearch;
+pub use hypotheses::{PoseHypothesis, Source, half_turns, with_translation};
+pub use judge::{Judge, Support};
 pub use keypoint_net::{
     KeypointNet, MatchedPose, PARTS, POINT_OUTPUTS, keypoint_outputs, matched_pose,
 };
+pub use method::{PoseError, PoseMethod};
+pub use observed::Observed;
 pub use proposer::{Hypothesis, PoseProposer};
 pub use rotation_net::{Decoder, PoseNetError, QUATERNION, RotationMode, RotationNet, view_batch};
-pub use view::{CELLS, EndEffectorView, VIEW_FEATURES};
+pub use shape::EndEffectorShape;
+pub use trust::{ExpectedError, Refusal};
+pub use view::{CELLS, EndEffectorView, VIEW_FEATURES, view_edge_m};

@@ -4,6 +4,7 @@ mod actor;
 mod checkpoint;
 mod corrupt;
 mod drawing;
+mod end_effector;
 mod error;
 mod feed;
 mod hand;
@@ -23,6 +24,7 @@ mod tensorboard;
 
 pub use actor::{Actor, Pose};
 pub use checkpoint::{Checkpoint, Progressed};
+pub use end_effector::EndEffectorLesson;
 pub use error::TrainError;
 pub use feed::Feed;
 pub use hand::{Hand, HandView};

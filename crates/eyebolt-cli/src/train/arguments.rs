@@ -12,6 +12,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Segmentation,
+    EndEffector,
     Rotation,
     Keypoints,
 }
@@ -21,6 +22,7 @@ impl Kind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Segmentation => "segmentation",
+            Self::EndEffector => "end_effector",
             Self::Rotation => "rotation",
             Self::Keypoints => "keypoints",
         }
@@ -79,13 +81,14 @@ pub struct Arguments {
 /// What to teach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum What {
-    /// Which pixels are the arm, and which the end-effector
+    /// Which pixels are the arm, and which the end-effector: one network for a whole frame, and one that looks
+    /// at the end-effector from near
     Segmentation,
     /// How the end-effector is turned
     Rotation,
     /// Where keypoints of the end-effector are
     Keypoints,
-    /// All three; with --any-arm the segmentation
+    /// All of them; with --any-arm the segmentation of whole frames
     All,
 }
 
@@ -98,15 +101,16 @@ impl Arguments {
     /// The networks that are asked for.
     pub fn kinds(&self) -> Result<&'static [Kind]> {
         Ok(match self.what {
-            What::Segmentation => &[Kind::Segmentation],
+            What::Segmentation if self.any_arm => &[Kind::Segmentation],
             What::All if self.any_arm => &[Kind::Segmentation],
             _ if self.any_arm => bail!(
                 "--any-arm: an end-effector that nobody knows has neither a rotation nor keypoints. Teach \
                  the segmentation, or name a robot"
             ),
+            What::Segmentation => &[Kind::Segmentation, Kind::EndEffector],
             What::Rotation => &[Kind::Rotation],
             What::Keypoints => &[Kind::Keypoints],
-            What::All => &[Kind::Segmentation, Kind::Rotation, Kind::Keypoints],
+            What::All => &[Kind::Segmentation, Kind::EndEffector, Kind::Rotation, Kind::Keypoints],
         })
     }
 }

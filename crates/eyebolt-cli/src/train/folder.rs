@@ -53,14 +53,19 @@ impl ModelFolder {
         Ok(Some(std::fs::read(&path).with_context(failed)?))
     }
 
-    /// Weights of the network of the same kind in the folder of another model.
-    pub fn weights_of(&self, model: &Path) -> Result<Vec<u8>> {
+    /// Weights of the network of the same kind in the folder of another model; none if that model, as any-arm,
+    /// has no such network.
+    pub fn weights_of(&self, model: &Path) -> Result<Option<Vec<u8>>> {
         let own = self.path.file_name().unwrap_or_default();
+        if model.join("segmentation").is_dir() && !model.join(own).is_dir() {
+            output::say(&format!("  {} has none to begin with", model.display()));
+            return Ok(None);
+        }
         let path = model.join(own).join(WEIGHTS);
         let failed = || {
             format!("{}: cannot read it. Name the folder of a model with --from", path.display())
         };
-        std::fs::read(&path).with_context(failed)
+        std::fs::read(&path).map(Some).with_context(failed)
     }
 
     /// Lines that were written before; what is not a line of ours is left out.

@@ -10,8 +10,8 @@ use eyebolt::end_effector::EndEffector;
 use eyebolt::progress::Progress;
 use eyebolt::robots::{BUILT_IN, BuiltIn};
 use eyebolt::train::{
-    Actor, Beginning, Cast, Checkpoint, Hand, Images, KeypointLesson, Lesson, RotationLesson,
-    SegmentationLesson, pace, teach as run,
+    Actor, Beginning, Cast, Checkpoint, EndEffectorLesson, Hand, Images, KeypointLesson, Lesson,
+    RotationLesson, SegmentationLesson, pace, teach as run,
 };
 use eyebolt_robot::{Arm, Robot};
 use std::path::PathBuf;
@@ -42,6 +42,14 @@ pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Resu
     match kind {
         Kind::Segmentation => {
             segmentation(arguments, images(arguments, arm)?, 3, &about, folder, progress)
+        }
+        Kind::EndEffector => {
+            let extent_m = EndEffector::of(&arm)?.extent_m();
+            let net = arguments.preset.end_effector()?;
+            let images = images(arguments, arm)?;
+            let mut lesson = EndEffectorLesson::new(images, extent_m, net, arguments.seed)?;
+            lesson.trained_on = about;
+            finish(arguments, &lesson, folder, progress)
         }
         Kind::Rotation => {
             let mut lesson =
@@ -139,7 +147,7 @@ fn finish<L: Lesson>(
     };
     progress.begin("train")?;
     let weights = match (&checkpoint, &arguments.from) {
-        (None, Some(from)) => Some(folder.weights_of(from)?),
+        (None, Some(from)) => folder.weights_of(from)?,
         _ => None,
     };
     let beginning = match (&checkpoint, &weights) {

@@ -52,6 +52,8 @@ pub struct ModelDescription {
     /// Columns that images are thinned to; of [flat](crate::coordinates::Kernel::flat) networks, and of
     /// no others.
     pub image_columns: Option<u32>,
+    /// Edge of the cube that the network sees, around a place in it; of networks that see a whole frame, none.
+    pub window_m: Option<f32>,
     /// Names of the features, one for each input channel.
     pub features: Vec<String>,
     /// Names of the classes or other outputs, one for each output channel.
@@ -76,12 +78,10 @@ impl ModelDescription {
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         let found: Self = toml::from_str(text)
             .map_err(|error| Error::file(FILE, "content", error.to_string()))?;
-        if let Some(voxel_m) = found.voxel_m.filter(|edge| !(edge.is_finite() && *edge > 0.0)) {
-            return Err(Error::file(
-                FILE,
-                "voxel_m",
-                format!("{voxel_m} is not a positive length"),
-            ));
+        for (field, length) in [("voxel_m", found.voxel_m), ("window_m", found.window_m)] {
+            if let Some(length) = length.filter(|length| !(length.is_finite() && *length > 0.0)) {
+                return Err(Error::file(FILE, field, format!("{length} is not a positive length")));
+            }
         }
         Ok(found)
     }

@@ -10,6 +10,7 @@ fn description(architecture: Architecture, features: usize, outputs: usize) -> M
     ModelDescription {
         voxel_m: (!matches!(architecture, Architecture::Pointnet2(_))).then_some(0.005),
         image_columns: None,
+        window_m: None,
         features: (0..features).map(|index| format!("feature {index}")).collect(),
         classes: (0..outputs).map(|index| format!("class {index}")).collect(),
         frame: "camera".into(),

@@ -33,6 +33,11 @@ impl BoundingBox {
         Self { low: self.low - margin, high: self.high + margin }
     }
 
+    /// Its middle, metres.
+    pub fn centre(&self) -> Point3<f64> {
+        nalgebra::center(&self.low, &self.high)
+    }
+
     /// Lengths of its sides, metres.
     pub fn size_m(&self) -> Vector3<f64> {
         self.high - self.low

@@ -92,6 +92,19 @@ impl EndEffector {
         &joint.name
     }
 
+    /// Its own joints at this share of the way between their limits.
+    pub fn opened(&self, share: f64) -> JointPositions {
+        let of_arm = self.arm.required_joints().len();
+        let joints = &self.arm.robot().joints;
+        let at = |name: &&str| {
+            let joint = joints.iter().find(|joint| joint.name == **name);
+            let limits = joint.and_then(|joint| joint.limits);
+            let at = limits.map_or(0.0, |it| it.lower + share * (it.upper - it.lower));
+            ((*name).to_owned(), at)
+        };
+        self.joint_names()[of_arm..].iter().map(at).collect()
+    }
+
     /// What keypoints are fixed to, in the order of their classes (class 1 is the first).
     pub fn fixed_keypoints(&self) -> &[Keypoint] {
         &self.keypoints
@@ -181,7 +194,7 @@ impl EndEffector {
         self.poses(&links, joints)
     }
 
-    fn poses(
+    pub(crate) fn poses(
         &self,
         links: &[usize],
         joints: &JointPositions,

@@ -13,6 +13,11 @@ const ROOM: f64 = 1.25;
 /// Fewer cells are no view.
 const FEWEST_CELLS: usize = 12;
 
+/// Width of the image of an end-effector of this largest extent, metres.
+pub fn view_edge_m(extent_m: f64) -> f64 {
+    ROOM * extent_m
+}
+
 /// What a camera saw of an end-effector, straightened: drawn parallel to the line of sight to its
 /// middle, so that where in the image it was no longer matters and what is rotation is only that.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +44,7 @@ impl EndEffectorView {
         let camera_from_view =
             Transform::from_parts(middle.coords, UnitQuaternion::from_rotation_matrix(&sight));
         let view_from_camera = camera_from_view.inverse().isometry().cast::<f32>();
-        let half_m = (0.5 * ROOM * extent_m) as f32;
+        let half_m = (0.5 * view_edge_m(extent_m)) as f32;
         let mut image = vec![[f32::NAN; 3]; CELLS * CELLS];
         for point in points_in_camera {
             let p = view_from_camera * Point3::from(*point);

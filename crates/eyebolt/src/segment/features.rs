@@ -29,7 +29,7 @@ pub fn features(image: &Thinned) -> Vec<f32> {
 }
 
 /// Unit normal toward the camera from the neighbours of the same surface; zero where there are none.
-fn normal(image: &Thinned, at: usize) -> [f32; 3] {
+pub(super) fn normal(image: &Thinned, at: usize) -> [f32; 3] {
     let (u, v) = (at % image.width, at / image.width);
     let across =
         difference(image, at, (u > 0).then(|| at - 1), (u + 1 < image.width).then(|| at + 1));

@@ -1,6 +1,7 @@
 //! From a depth image to labels of its pixels.
 
 use super::cluster::{ARM_LINKAGE_M, END_EFFECTOR_LINKAGE_M, keep_largest_cluster};
+use super::end_effector_net::EndEffectorNet;
 use super::features::FEATURES;
 use super::grid::Grid;
 use super::thinned::Thinned;
@@ -8,6 +9,7 @@ use super::upsample::upsample;
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
 use eyebolt_net::models::{Architecture, Model};
 use eyebolt_net::{Cpu, Executor};
+use std::path::{Path, PathBuf};
 
 /// Nothing, or something that is not the arm.
 pub const BACKGROUND: u8 = 0;
@@ -34,6 +36,25 @@ pub enum SegmentError {
         /// What is wrong with it.
         problem: String,
     },
+    /// A file of the model cannot be read.
+    #[error(
+        "{}: cannot read it. Name the folder of a model with --model, or make one with eyebolt train",
+        path.display()
+    )]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// In the folder of a model.
+    #[error("{}", folder.display())]
+    Model {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong there.
+        source: Box<SegmentError>,
+    },
     /// Image and camera are of different sizes.
     #[error("the depth image has {found:?} pixels, its camera {camera:?}")]
     Size {
@@ -44,12 +65,20 @@ pub enum SegmentError {
     },
 }
 
+impl SegmentError {
+    /// This error, as one of the network in `folder`.
+    pub(super) fn of(self, folder: &Path) -> Self {
+        Self::Model { folder: folder.to_owned(), source: Box::new(self) }
+    }
+}
+
 /// A network that tells the arm from the rest.
 #[derive(Debug)]
 pub struct Segmenter {
     model: Model,
     executor: Cpu,
     grid: Grid,
+    end_effector: Option<EndEffectorNet>,
     /// Of the last camera: it is mostly the same.
     rays: Option<(PinholeCamera, RayTable)>,
 }
@@ -95,12 +124,17 @@ impl Segmenter {
         if !right {
             return other("classes", format!("{names:?} are not background, arm and end_effector"));
         }
-        Ok(Self { model, executor: Cpu::new(), grid, rays: None })
+        Ok(Self { model, executor: Cpu::new(), grid, end_effector: None, rays: None })
+    }
+
+    /// With a network that looks at the end-effector from near.
+    pub fn with_end_effector(self, net: EndEffectorNet) -> Self {
+        Self { end_effector: Some(net), ..self }
     }
 
     /// Whether the end-effector is told apart.
     pub fn tells_end_effector(&self) -> bool {
-        self.model.description.classes.len() > 2
+        self.end_effector.is_some() || self.model.description.classes.len() > 2
     }
 
     /// Labels of the pixels of `depth`, which `camera` saw.
@@ -126,7 +160,9 @@ impl Segmenter {
         let batch = self.grid.batch(&self.model.graph, &[&image])?;
         let Model { graph, parameters, .. } = &self.model;
         let outputs = self.executor.infer(graph, parameters, &batch)?;
-        let mut label = upsample(depth, &image, &rows, &outputs[0]);
+        let mut label = vec![UNKNOWN; width * height];
+        let all = (&image, rows.as_slice(), &outputs[0]);
+        upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut label);
         let table = match self.rays.take() {
             Some((of, table)) if of == *camera => table,
             _ => RayTable::new(camera),
@@ -135,6 +171,10 @@ impl Segmenter {
         keep_largest_cluster(&mut label, depth, &table, ARM_LINKAGE_M, arm, BACKGROUND);
         let hand = |label| label == END_EFFECTOR;
         keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, hand, ARM);
+        if let Some(net) = &mut self.end_effector {
+            net.refine(depth, camera, &table, &mut label)?;
+            keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, hand, ARM);
+        }
         self.rays = Some((camera.clone(), table));
         Ok(Segmentation { width, height, label })
     }

@@ -3,8 +3,9 @@
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use nalgebra::Point2;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// A depth image binned to about as many columns as a network takes.
+/// A depth image, or a part of one, binned to about as many columns as a network takes.
 ///
 /// Networks see an image at one width whatever the camera's, and geometry by its metres, not by its
 /// pixels.
@@ -16,6 +17,8 @@ pub struct Thinned {
     pub height: usize,
     /// Pixels of the full image along an edge of a bin.
     pub step: usize,
+    /// Column and row of the full image where the first bin begins.
+    pub corner: [usize; 2],
     /// Depth, row by row, metres; 0 where there is none.
     pub depth_m: Vec<f32>,
     /// Of each pixel `x / z` and `y / z` of the ray through its middle.
@@ -30,21 +33,42 @@ impl Thinned {
     /// a depth that was measured, not one between the arm and the wall.
     pub fn new(depth: &DepthImage, camera: &PinholeCamera, columns: usize) -> Self {
         let step = step(camera, columns);
-        let (width, height) = size(camera, step);
+        let (width, height) = (camera.width() as usize, camera.height() as usize);
+        Self::part(depth, camera, [0..width, 0..height], step)
+    }
+
+    /// These columns and rows of `depth`, in bins of `step` pixels along an edge; what is left beside
+    /// the last whole one is not seen.
+    pub fn part(
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        [columns, lines]: [Range<usize>; 2],
+        step: usize,
+    ) -> Self {
+        let [width, height] = [&columns, &lines].map(|range| range.len() / step);
+        let corner = [columns.start, lines.start];
         let full = depth.depth_m();
         let stride = depth.width() as usize;
         let rows = (0..height).into_par_iter().flat_map_iter(|v| {
             let mut bin = Vec::with_capacity(step * step);
             (0..width).map(move |u| {
                 bin.clear();
-                for row in v * step..(v + 1) * step {
-                    let start = row * stride + u * step;
+                for row in corner[1] + v * step..corner[1] + (v + 1) * step {
+                    let start = row * stride + corner[0] + u * step;
                     bin.extend(full[start..start + step].iter().filter(|z| **z > 0.0));
                 }
                 median(&mut bin, step * step)
             })
         });
-        Self { width, height, step, depth_m: rows.collect(), rays: rays(camera, step) }
+        let depth_m = rows.collect();
+        Self {
+            width,
+            height,
+            step,
+            corner,
+            depth_m,
+            rays: rays(camera, [width, height], corner, step),
+        }
     }
 
     /// Point of a pixel in the camera's frame, metres.
@@ -66,17 +90,16 @@ pub fn step(camera: &PinholeCamera, columns: usize) -> usize {
     rounded.clamp(1, width.min(height))
 }
 
-/// Columns and rows of bins.
-pub fn size(camera: &PinholeCamera, step: usize) -> (usize, usize) {
-    (camera.width() as usize / step, camera.height() as usize / step)
-}
-
 /// `x / z` and `y / z` of the middle of each bin; of pixels that the lens does not see, those on the axis.
-pub fn rays(camera: &PinholeCamera, step: usize) -> Vec<[f32; 2]> {
-    let (width, height) = size(camera, step);
-    let middle = |bin: usize| (bin * step) as f64 + 0.5 * (step as f64 - 1.0);
-    let pixels =
-        (0..height).flat_map(|v| (0..width).map(move |u| Point2::new(middle(u), middle(v))));
+fn rays(
+    camera: &PinholeCamera,
+    [width, height]: [usize; 2],
+    [left, top]: [usize; 2],
+    step: usize,
+) -> Vec<[f32; 2]> {
+    let middle = |start: usize, bin: usize| (start + bin * step) as f64 + 0.5 * (step as f64 - 1.0);
+    let place = |u: usize, v: usize| Point2::new(middle(left, u), middle(top, v));
+    let pixels = (0..height).flat_map(|v| (0..width).map(move |u| place(u, v)));
     pixels
         .map(|pixel| camera.ray(&pixel).map_or([0.0; 2], |ray| [ray.x as f32, ray.y as f32]))
         .collect()

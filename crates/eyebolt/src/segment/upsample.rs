@@ -1,35 +1,42 @@
 //! From logits of a thinned image to labels of the full one.
 
-use super::segmenter::UNKNOWN;
 use super::thinned::Thinned;
 use eyebolt_geometry::DepthImage;
 use eyebolt_net::Matrix;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// A bin speaks for pixels whose depth differs from its own by about this share.
 const SAME_SURFACE: f32 = 0.01;
 /// What is left of its weight elsewhere: where no bin has the depth, the nearest ones speak.
 const ELSEWHERE: f32 = 1e-4;
 
-/// Labels of all pixels of `depth`: the class of the largest logit between the four bins around, weighted
+/// Writes to `labels`, of all pixels of `depth`, those in the columns and rows `part` and as deep as `depth_m`
+/// says: the class of the largest logit between the four bins around, weighted
 /// by nearness in the image and in depth (joint bilateral upsampling: Kopf et al., SIGGRAPH 2007).
-/// `logits` has a row for each of `rows`, the bins of `image` that have depth.
-pub fn upsample(depth: &DepthImage, image: &Thinned, rows: &[usize], logits: &Matrix) -> Vec<u8> {
+/// `logits` has a row for each of `rows`, bins of `image`; where none of the four has one, nothing is written.
+pub fn upsample(
+    depth: &DepthImage,
+    (image, rows, logits): (&Thinned, &[usize], &Matrix),
+    part: &[Range<usize>; 2],
+    depth_m: &Range<f32>,
+    labels: &mut [u8],
+) {
     const NONE: u32 = u32::MAX;
     let mut row_of = vec![NONE; image.depth_m.len()];
     rows.iter().zip(0..).for_each(|(at, row)| row_of[*at] = row);
     let (width, step) = (depth.width() as usize, image.step as f32);
+    let [columns, lines] = part;
     let classes = logits.channels();
-    let mut labels = vec![UNKNOWN; depth.depth_m().len()];
-    let lines = labels.par_chunks_mut(width).zip(depth.depth_m().par_chunks(width)).enumerate();
-    lines.for_each_init(
+    let rows_of_image = labels.par_chunks_mut(width).zip(depth.depth_m().par_chunks(width));
+    rows_of_image.enumerate().skip(lines.start).take(lines.len()).for_each_init(
         || vec![0.0_f32; classes],
         |sums, (v, (labels, depths))| {
-            let (v0, part_v) = place(v, step);
-            for (u, (label, &z)) in
-                labels.iter_mut().zip(depths).enumerate().filter(|(_, (_, z))| **z > 0.0)
-            {
-                let (u0, part_u) = place(u, step);
+            let (v0, part_v) = place(v - image.corner[1], step);
+            let pixels = labels.iter_mut().zip(depths).enumerate();
+            let pixels = pixels.skip(columns.start).take(columns.len());
+            for (u, (label, &z)) in pixels.filter(|(_, (_, z))| **z > 0.0 && depth_m.contains(*z)) {
+                let (u0, part_u) = place(u - image.corner[0], step);
                 sums.fill(0.0);
                 let mut total = 0.0;
                 for (dv, weight_v) in [(0, 1.0 - part_v), (1, part_v)] {
@@ -48,11 +55,12 @@ pub fn upsample(depth: &DepthImage, image: &Thinned, rows: &[usize], logits: &Ma
                         sums.iter_mut().zip(logits).for_each(|(sum, logit)| *sum += weight * logit);
                     }
                 }
-                *label = if total > 0.0 { largest(sums) } else { UNKNOWN };
+                if total > 0.0 {
+                    *label = largest(sums, *label);
+                }
             }
         },
     );
-    labels
 }
 
 /// The bin whose middle is before pixel `at`, and how far on to the next it is.
@@ -61,7 +69,7 @@ fn place(at: usize, step: f32) -> (i64, f32) {
     (x.floor() as i64, x - x.floor())
 }
 
-fn largest(sums: &[f32]) -> u8 {
+fn largest(sums: &[f32], of_none: u8) -> u8 {
     let best = sums.iter().zip(0_u8..).max_by(|a, b| a.0.total_cmp(b.0).then(b.1.cmp(&a.1)));
-    best.map_or(UNKNOWN, |(_, class)| class)
+    best.map_or(of_none, |(_, class)| class)
 }

@@ -2,7 +2,7 @@
 
 use super::actor::{Actor, Pose};
 use super::look::spread_evenly;
-use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, Thinned, UNKNOWN, rays};
+use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, Thinned, UNKNOWN};
 use eyebolt_geometry::{Base, Camera, EndEffector, Link, PinholeCamera, RayTable, Transform};
 use eyebolt_render::{Random, Raster, RayScene, SceneMesh};
 use eyebolt_robot::{Body, Prefer, Shape, TriangleMesh, link_mesh};
@@ -83,7 +83,8 @@ impl<'a> Drawing<'a> {
             }
         }
         let (width, height) = (self.camera.width() as usize, self.camera.height() as usize);
-        (Thinned { width, height, step: 1, depth_m, rays: rays(&self.camera, 1) }, label)
+        let rays = table.rays().to_vec();
+        (Thinned { width, height, step: 1, corner: [0; 2], depth_m, rays }, label)
     }
 }
 

@@ -6,9 +6,11 @@ use super::shot::{Framing, Shot};
 use crate::end_effector::EndEffector;
 use crate::pose::EndEffectorView;
 use crate::segment::{ARM, END_EFFECTOR};
-use eyebolt_geometry::{EndEffector as EndEffectorFrame, Link, Transform};
+use eyebolt_geometry::{Camera, EndEffector as EndEffectorFrame, Link, Transform};
 use eyebolt_render::{Field, Random};
 use eyebolt_robot::JointPositions;
+use nalgebra::{UnitQuaternion, Vector3};
+use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 /// Whose end-effector, and from where.
@@ -62,10 +64,29 @@ impl HeldOut {
     }
 }
 
-/// Views drawn until one shows enough of it.
+/// Images drawn until one shows enough of it.
 const TRIES: u64 = 20;
+/// Views of one image that are learned from: each as if the camera were rolled otherwise and another network
+/// had found the labels. An image costs many times what a view does.
+pub const VIEWS_OF_ONE: u64 = 4;
 
 impl Hand {
+    /// `count` views to learn from in step `step` of a stream, in fours of one image each.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::view`].
+    pub fn views(&self, stream: u64, step: u64, count: u64) -> Result<Vec<HandView>, TrainError> {
+        let images = count.div_ceil(VIEWS_OF_ONE);
+        let mut views = Vec::with_capacity(count as usize);
+        for image in 0..images {
+            let random = Random::new(self.seed).at(stream).at(step * images + image);
+            let of_one = VIEWS_OF_ONE.min(count - image * VIEWS_OF_ONE);
+            views.extend(self.of_one(random, of_one, false)?);
+        }
+        Ok(views)
+    }
+
     /// View `index` of a stream of random numbers. With `true_labels` its points are those of the
     /// end-effector and no others, as if the segmentation knew; else as a network finds them.
     ///
@@ -74,22 +95,47 @@ impl Hand {
     /// The end-effector is in none of many images.
     pub fn view(&self, stream: u64, index: u64, true_labels: bool) -> Result<HandView, TrainError> {
         let random = Random::new(self.seed).at(stream).at(index);
-        let framing = Framing::AT_END_EFFECTOR;
+        let views = self.of_one(random, 1, true_labels)?;
+        views.into_iter().next().ok_or(TrainError::NothingToSee { tries: TRIES })
+    }
+
+    /// Up to `count` views of one image, and at least one.
+    fn of_one(
+        &self,
+        random: Random,
+        count: u64,
+        true_labels: bool,
+    ) -> Result<Vec<HandView>, TrainError> {
         for attempt in 0..TRIES {
-            let shots = self.images.shots(random.at(attempt), 1, framing)?;
+            let random = random.at(attempt);
+            let shots = self.images.shots(random, 1, Framing::AT_END_EFFECTOR)?;
             let Some(shot) = shots.into_iter().next() else { continue };
-            let points = if true_labels {
-                points(&shot, &shot.label)
-            } else {
-                points(&shot, &found(&shot, random.at(attempt).at(u64::MAX)))
+            let view = |index: u64| {
+                let random = random.at(u64::MAX).at(index);
+                match true_labels {
+                    true => self.view_of(&shot, &shot.label, 0.0),
+                    false => self.view_of(&shot, &found(&shot, random), random.at(9).uniform()),
+                }
             };
-            if let Some(view) = EndEffectorView::new(&points, self.extent_m) {
-                let view_from_end_effector =
-                    view.camera_from_view.inverse() * shot.camera_from_end_effector;
-                return Ok(HandView { view, view_from_end_effector, joints: shot.joints });
+            let views: Vec<HandView> = (0..count).filter_map(view).collect();
+            if !views.is_empty() {
+                return Ok(views);
             }
         }
         Err(TrainError::NothingToSee { tries: TRIES })
+    }
+
+    /// The view of `shot`, its camera rolled by a part of a turn.
+    fn view_of(&self, shot: &Shot, label: &[u8], roll: f64) -> Option<HandView> {
+        let roll = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), TAU * roll);
+        let rolled = Transform::<Camera, Camera>::from_parts(Vector3::zeros(), roll);
+        let turn = roll.cast::<f32>();
+        let points = points(shot, label).into_iter();
+        let points: Vec<[f32; 3]> = points.map(|p| (turn * Vector3::from(p)).into()).collect();
+        let view = EndEffectorView::new(&points, self.extent_m)?;
+        let camera_from_end_effector = rolled * shot.camera_from_end_effector;
+        let view_from_end_effector = view.camera_from_view.inverse() * camera_from_end_effector;
+        Some(HandView { view, view_from_end_effector, joints: shot.joints.clone() })
     }
 }
 

@@ -5,6 +5,7 @@ use super::hand::{Hand, HandView, HeldOut};
 use super::lesson::Lesson;
 use crate::pose::{
     CELLS, PARTS, POINT_OUTPUTS, VIEW_FEATURES, keypoint_outputs, matched_pose, view_batch,
+    view_edge_m,
 };
 use eyebolt_geometry::{EndEffector, Link, Transform};
 use eyebolt_net::losses::{Loss, cross_entropy, laplace};
@@ -71,7 +72,7 @@ impl KeypointLesson {
         let graph = net.graph()?;
         let turns = hand.end_effector.symmetry().turns();
         let twins = std::iter::once(Isometry3::identity()).chain(turns).collect();
-        let (views, validation, trained_on) = (12, 128, String::new());
+        let (views, validation, trained_on) = (16, 128, String::new());
         let held_out = HeldOut::default();
         let surface = hand.end_effector.points(&JointPositions::default(), SURFACE);
         let surface: Vec<[f32; 3]> =
@@ -140,6 +141,7 @@ impl Lesson for KeypointLesson {
         ModelDescription {
             voxel_m: None,
             image_columns: Some(CELLS as u32),
+            window_m: Some(view_edge_m(self.hand.extent_m) as f32),
             features: VIEW_FEATURES.map(str::to_owned).to_vec(),
             classes: keypoint_outputs(),
             frame: "view of the end-effector".into(),
@@ -151,9 +153,7 @@ impl Lesson for KeypointLesson {
     }
 
     fn batch(&self, step: u64) -> Result<(Batch, KeypointTarget), TrainError> {
-        let views =
-            (0..self.views).map(|view| self.hand.view(LEARN, step * self.views + view, false));
-        let views = views.collect::<Result<Vec<_>, _>>()?;
+        let views = self.hand.views(LEARN, step, self.views)?;
         let item = |view: &HandView| Ok((view.view.cells.len(), self.matches(view)?));
         let items = views.iter().map(item).collect::<Result<_, TrainError>>()?;
         let images: Vec<_> = views.iter().map(|view| &view.view).collect();

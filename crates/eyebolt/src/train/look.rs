@@ -1,6 +1,7 @@
 //! Where cameras are in images to learn from.
 
 use super::actor::{Actor, Pose};
+use crate::segment::{window_half_m, window_step};
 use eyebolt_geometry::{Base, Camera, Distortion, PinholeCamera, Transform};
 use eyebolt_render::Random;
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
@@ -34,8 +35,10 @@ pub fn look_at_end_effector(
 ) -> (PinholeCamera, Transform<Base, Camera>) {
     let extent = actor.end_effector_extent_m();
     let distance = spread_evenly(random, 0.4, 2.2).max(2.0 * extent);
-    // As many pixels as real cameras give it at that distance.
-    let focal = random.between(380.0, 750.0).min(0.9 * columns as f64 * distance / extent);
+    // As many pixels as real cameras give it at that distance, binned as a window around it is.
+    let focal = random.between(380.0, 750.0);
+    let half_px = f64::from(window_half_m(extent)) * focal / distance;
+    let focal = focal / window_step(half_px) as f64;
     let middle = pose.base_from_end_effector.point(&actor.end_effector_middle());
     let base_from_axis = from_anywhere(random, middle.coords, distance);
     // Beside the optical axis of the whole image.

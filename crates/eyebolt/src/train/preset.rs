@@ -2,7 +2,7 @@
 
 use super::lesson::Plan;
 use crate::pose::{PARTS, POINT_OUTPUTS, VIEW_FEATURES};
-use crate::segment::{FEATURES, Grid};
+use crate::segment::{CLASSES, FEATURES, Grid, WINDOW_FEATURES};
 use eyebolt_net::Error;
 use eyebolt_net::models::{Head, MinkEncoder, MinkUNet};
 use eyebolt_net::training::Rule;
@@ -73,6 +73,17 @@ impl Preset {
             }
             Self::Voxels => MinkUNet::named("minkunet14a", inputs, classes),
         }
+    }
+
+    /// The segmentation of a window around an end-effector.
+    ///
+    /// # Errors
+    ///
+    /// None, as the names are known.
+    pub fn end_effector(self) -> Result<MinkUNet, Error> {
+        let net = MinkUNet::named("minkunet14a", WINDOW_FEATURES.len(), CLASSES.len())?;
+        let channels = [24, 32, 64, 96, 64, 32, 24, 24];
+        Ok(MinkUNet { channels, stem_channels: 16, stem_kernel: 3, flat: true, ..net })
     }
 
     /// The network for rotations.

@@ -4,7 +4,7 @@ use super::error::TrainError;
 use super::hand::{Hand, HandView, HeldOut};
 use super::keypoints::mean_and_median;
 use super::lesson::Lesson;
-use crate::pose::{Decoder, QUATERNION, VIEW_FEATURES, view_batch};
+use crate::pose::{Decoder, QUATERNION, VIEW_FEATURES, view_batch, view_edge_m};
 use eyebolt_net::losses::{Loss, PoseLoss, pose_loss, soft_cross_entropy};
 use eyebolt_net::models::{Architecture, MinkEncoder, ModelDescription};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
@@ -56,7 +56,7 @@ impl RotationLesson {
             .collect();
         let points = hand.end_effector.points(&JointPositions::default(), POINTS);
         let points_m = points.iter().map(|point| point.cast::<f32>().into()).collect();
-        let (views, validation, trained_on) = (16, 128, String::new());
+        let (views, validation, trained_on) = (32, 128, String::new());
         let held_out = HeldOut::default();
         Ok(Self {
             hand,
@@ -86,9 +86,13 @@ impl RotationLesson {
                 [x, y, z, w].map(|value| value as f32).to_vec()
             }
             Decoder::Grid(cells) => {
+                let turned: Vec<_> = self.twins.iter().map(|twin| truth * twin).collect();
                 let share = |cell: &UnitQuaternion<f64>| {
-                    let near = |twin| CONCENTRATION * (cell.angle_to(&(truth * twin)).cos() - 1.0);
-                    self.twins.iter().map(|twin| near(twin).exp()).sum::<f64>()
+                    // The cosine of an angle is 2 (q p)^2 - 1.
+                    let near = |turned: &UnitQuaternion<f64>| {
+                        CONCENTRATION * 2.0 * (cell.coords.dot(&turned.coords).powi(2) - 1.0)
+                    };
+                    turned.iter().map(|turned| near(turned).exp()).sum::<f64>()
                 };
                 let shares: Vec<f64> = cells.iter().map(share).collect();
                 let total: f64 = shares.iter().sum();
@@ -113,6 +117,7 @@ impl Lesson for RotationLesson {
         ModelDescription {
             voxel_m: None,
             image_columns: Some(crate::pose::CELLS as u32),
+            window_m: Some(view_edge_m(self.hand.extent_m) as f32),
             features: VIEW_FEATURES.map(str::to_owned).to_vec(),
             classes,
             frame: "view of the end-effector".into(),
@@ -124,9 +129,7 @@ impl Lesson for RotationLesson {
     }
 
     fn batch(&self, step: u64) -> Result<(Batch, Matrix), TrainError> {
-        let views =
-            (0..self.views).map(|view| self.hand.view(LEARN, step * self.views + view, false));
-        let views = views.collect::<Result<Vec<_>, _>>()?;
+        let views = self.hand.views(LEARN, step, self.views)?;
         let targets: Vec<f32> = views.iter().flat_map(|view| self.target(view)).collect();
         let width = targets.len() / views.len().max(1);
         let images: Vec<_> = views.iter().map(|view| &view.view).collect();

@@ -5,7 +5,7 @@ use super::images::Images;
 use super::lesson::Lesson;
 use super::scores::Confusion;
 use super::shot::{Framing, Shot};
-use crate::segment::{ARM, END_EFFECTOR, FEATURES, Grid, Thinned, UNKNOWN};
+use crate::segment::{ARM, CLASSES, END_EFFECTOR, FEATURES, Grid, Thinned, UNKNOWN};
 use eyebolt_net::losses::{Loss, cross_entropy, lovasz_softmax};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
 use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix, Parameters};
@@ -36,6 +36,12 @@ pub struct SegmentationLesson {
 
 /// The label that losses leave out.
 const IGNORED: u32 = UNKNOWN as u32;
+/// Cross-entropy and the Jaccard index in one: every point counts, and every class.
+pub(super) fn label_loss(logits: &Matrix, labels: &[u32]) -> Result<Loss, eyebolt_net::Error> {
+    let cross = cross_entropy(logits, labels, IGNORED, None)?;
+    Ok(cross.plus(&lovasz_softmax(logits, labels, IGNORED)?))
+}
+
 /// Streams of random numbers: images to learn from, and others.
 const LEARN: u64 = 1;
 const VALIDATE: u64 = 2;
@@ -48,8 +54,8 @@ impl SegmentationLesson {
     /// The network is none.
     pub fn new(source: Images, grid: Grid, net: MinkUNet, seed: u64) -> Result<Self, TrainError> {
         let graph = net.graph()?;
-        let names = ["background", "arm", "end_effector"];
-        let classes = names[..net.outputs.min(3)].iter().map(|name| (*name).to_owned()).collect();
+        let names = &CLASSES[..net.outputs.min(CLASSES.len())];
+        let classes = names.iter().map(|name| (*name).to_owned()).collect();
         let (images, validation, trained_on) = (4, 64, String::new());
         Ok(Self {
             source,
@@ -116,6 +122,7 @@ impl Lesson for SegmentationLesson {
                 Grid::Image { columns } => Some(columns as u32),
                 Grid::Voxels { .. } => None,
             },
+            window_m: None,
             features: FEATURES.map(str::to_owned).to_vec(),
             classes: self.classes.clone(),
             frame: "camera".into(),
@@ -131,9 +138,7 @@ impl Lesson for SegmentationLesson {
     }
 
     fn loss(&self, outputs: &[Matrix], labels: &Vec<u32>) -> Result<Vec<Loss>, eyebolt_net::Error> {
-        let cross = cross_entropy(&outputs[0], labels, IGNORED, None)?;
-        let jaccard = lovasz_softmax(&outputs[0], labels, IGNORED)?;
-        Ok(vec![cross.plus(&jaccard)])
+        Ok(vec![label_loss(&outputs[0], labels)?])
     }
 
     fn validate(

@@ -46,6 +46,8 @@ pub struct Framing {
     pub columns: usize,
     /// Whether the camera looks at the end-effector, from near, instead of at the arm.
     pub at_end_effector: bool,
+    /// Whether there is a room around, or only a plane behind.
+    pub room: bool,
     /// Whether most images of the arm have to show its end-effector, too.
     pub with_end_effector: bool,
     /// Whether depth is what a camera makes of it, or as it is.
@@ -54,11 +56,21 @@ pub struct Framing {
 
 impl Framing {
     /// The arm in its room, as a segmentation sees it.
-    pub const ARM: Self =
-        Self { columns: 160, at_end_effector: false, with_end_effector: false, faults: true };
+    pub const ARM: Self = Self {
+        columns: 160,
+        at_end_effector: false,
+        room: true,
+        with_end_effector: false,
+        faults: true,
+    };
     /// The part of an image with the end-effector.
-    pub const AT_END_EFFECTOR: Self =
-        Self { columns: 112, at_end_effector: true, with_end_effector: true, faults: true };
+    pub const AT_END_EFFECTOR: Self = Self {
+        columns: 104,
+        at_end_effector: true,
+        room: false,
+        with_end_effector: true,
+        faults: true,
+    };
 }
 
 /// Images drawn until one shows the arm, and rooms until all images do.
@@ -122,7 +134,7 @@ impl Cast {
             drawings.push(tries.next().ok_or(TrainError::NothingToSee { tries: TRIES })?);
         }
         let eyes: Vec<Point3<f64>> = drawings.iter().map(Drawing::eye).collect();
-        let scene = (!framing.at_end_effector).then(|| scenery(random.at(2), &eyes));
+        let scene = framing.room.then(|| scenery(random.at(2), &eyes));
         let shot = |(drawing, index): (Drawing<'_>, u64)| {
             let random = random.at(3).at(index);
             let (mut image, label) = drawing.finished(scene.as_ref(), random.at(0));

@@ -1,5 +1,6 @@
 //! Networks while they are taught.
 
+mod hand;
 mod learning;
 mod runs;
 mod small;

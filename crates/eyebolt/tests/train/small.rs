@@ -1,10 +1,12 @@
 //! A small lesson, and a keeper that keeps everything in memory.
 
+use eyebolt::end_effector::EndEffector;
 use eyebolt::progress::{Cancelled, Progress};
 use eyebolt::robots::BuiltIn;
 use eyebolt::segment::Grid;
 use eyebolt::train::{
-    Actor, Cast, Images, Keep, Lesson, Plan, Preset, Report, SegmentationLesson, TrainError,
+    Actor, Cast, EndEffectorLesson, Hand, Images, Keep, Lesson, Plan, Preset, Report,
+    SegmentationLesson, TrainError,
 };
 use eyebolt_net::losses::Loss;
 use eyebolt_net::models::{MinkUNet, ModelDescription};
@@ -19,16 +21,38 @@ pub fn lesson() -> SegmentationLesson {
 
 /// The same with so many classes.
 pub fn small_net(classes: usize) -> SegmentationLesson {
-    let arm = BuiltIn::named("shackle").unwrap().arm();
-    let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-test-links"));
-    let cast = Cast::Known(vec![Actor::new(arm, &cache).unwrap()]);
     let net = Preset::Default.segmentation(classes).unwrap();
     let net = MinkUNet { channels: [16, 16, 32, 32, 32, 16, 16, 16], stem_channels: 8, ..net };
     let mut lesson =
-        SegmentationLesson::new(Images::simulated(cast), Grid::Image { columns: 64 }, net, 5)
-            .unwrap();
+        SegmentationLesson::new(images(), Grid::Image { columns: 64 }, net, 5).unwrap();
     lesson.validation = 8;
     lesson
+}
+
+/// The built-in robot's end-effector in windows, by few channels.
+pub fn end_effector_lesson() -> EndEffectorLesson {
+    let arm = BuiltIn::named("shackle").unwrap().arm();
+    let extent_m = EndEffector::of(&arm).unwrap().extent_m();
+    let net = Preset::Default.end_effector().unwrap();
+    let net = MinkUNet { channels: [16, 16, 32, 32, 32, 16, 16, 16], stem_channels: 8, ..net };
+    let mut lesson = EndEffectorLesson::new(images(), extent_m, net, 5).unwrap();
+    (lesson.images, lesson.validation) = (3, 24);
+    lesson
+}
+
+/// The built-in robot's end-effector.
+pub fn hand() -> Hand {
+    let arm = BuiltIn::named("shackle").unwrap().arm();
+    let end_effector = EndEffector::of(&arm).unwrap();
+    let extent_m = end_effector.extent_m();
+    Hand { images: images(), end_effector, extent_m, seed: 5 }
+}
+
+/// Images of the built-in robot.
+fn images() -> Images {
+    let arm = BuiltIn::named("shackle").unwrap().arm();
+    let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-test-links"));
+    Images::simulated(Cast::Known(vec![Actor::new(arm, &cache).unwrap()]))
 }
 
 /// A plan of so many steps, with a validation after every `every`.

@@ -1,0 +1,127 @@
+//! `eyebolt pose`.
+
+mod lines;
+
+use crate::ending::Ending;
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
+use crate::output;
+use crate::progress::Counting;
+use anyhow::{Result, bail};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod};
+use eyebolt::progress::Progress;
+use eyebolt::record::FrameImages;
+use eyebolt::segment::Segmenter;
+use eyebolt_recording::Recording;
+use eyebolt_robot::JointPositions;
+use lines::Line;
+use std::path::PathBuf;
+
+/// Options of `eyebolt pose`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    recording: RecordingArguments,
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// Folder of a model that eyebolt train made for this end-effector, such as models/panda
+    #[arg(long, value_name = "FOLDER")]
+    model: PathBuf,
+    /// How the pose comes about: by rotation and translation, by matched points, or by both and what the
+    /// image supports
+    #[arg(long, default_value = "fused", value_parser = method())]
+    method: PoseMethod,
+    /// Leave the pose as the networks have it
+    #[arg(long)]
+    no_icp: bool,
+    /// Take the positions of fingers from the recording's joint states; otherwise the likeliest
+    /// opening is found
+    #[arg(long)]
+    joint_states: bool,
+    /// A line of JSON for each frame instead of text
+    #[arg(long)]
+    json: bool,
+    /// Write the lines of JSON to this file, too
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace an existing file
+    #[arg(long)]
+    force: bool,
+    /// Threads to use; otherwise one for each core
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArguments,
+}
+
+fn method() -> impl TypedValueParser<Value = PoseMethod> {
+    PossibleValuesParser::new(PoseMethod::ALL.map(|(name, _)| name)).try_map(|name| {
+        let known = PoseMethod::ALL.into_iter().find(|(known, _)| *known == name);
+        known.map(|(_, method)| method).ok_or("not a method")
+    })
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Ending> {
+    use_threads(arguments.threads)?;
+    if let Some(path) = &arguments.output {
+        output::refuse_existing(path, arguments.force)?;
+    }
+    let path = &arguments.recording.recording;
+    let recording = arguments.recording.open()?;
+    let names = recording.frame_names().to_vec();
+    if names.is_empty() {
+        bail!("{}: there is no frame in it", path.display());
+    }
+    let arm = arguments.robot.arm(path, &recording)?;
+    let mut segmenter = Segmenter::open(&arguments.model)?;
+    if !segmenter.tells_end_effector() {
+        bail!(
+            "{}: the model tells the arm, but not its end-effector. Teach one for this robot with eyebolt train",
+            arguments.model.display()
+        );
+    }
+    let shape = EndEffectorShape::of(&arm, &arguments.cache.open())?;
+    let mut estimator = PoseEstimator::open(&arguments.model, shape, arguments.method)?;
+    estimator.refines = !arguments.no_icp;
+    let images = FrameImages::of(recording.source())?;
+    let bar = Counting::new()?;
+    let mut lines = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        bar.advance(index, names.len())?;
+        let Some(depth) = images.depth(recording.source(), index)? else {
+            lines.push(Line::damaged(name, arguments.method));
+            continue;
+        };
+        let joints = joints(arguments, &recording, index)?;
+        let label = segmenter.segment(&depth, images.camera())?.label;
+        let found = estimator.estimate(&depth, images.camera(), &label, joints.as_ref())?;
+        let line = Line::of(name, arguments.method, joints.is_some(), found);
+        if arguments.json {
+            output::say(&line.json());
+        }
+        lines.push(line);
+    }
+    drop(bar);
+    if !arguments.json {
+        lines.iter().for_each(|line| output::say(&line.text()));
+    }
+    if let Some(path) = &arguments.output {
+        let text: String = lines.iter().map(|line| line.json() + "\n").collect();
+        output::write_whole(path, text.as_bytes(), arguments.force)?;
+    }
+    let answered = lines.iter().filter(|line| line.answered).count();
+    if !arguments.json {
+        output::say(&format!("{answered} of {} frames answered", lines.len()));
+    }
+    Ok(if answered == 0 { Ending::Refused } else { Ending::Done })
+}
+
+fn joints(
+    arguments: &Arguments,
+    recording: &Recording,
+    index: usize,
+) -> Result<Option<JointPositions>> {
+    let read = || recording.source().read_joints(index);
+    Ok(arguments.joint_states.then(read).transpose()?)
+}

@@ -1,0 +1,111 @@
+//! What is said of the pose in one frame.
+
+use eyebolt::pose::{ExpectedError, PoseAnswer, PoseMethod};
+use serde::Serialize;
+
+/// A frame's line.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    frame: String,
+    pub answered: bool,
+    camera_from_end_effector: Option<Pose>,
+    expected_error: Option<Error>,
+    /// Other poses that explain the frame as well.
+    alternatives: Vec<Pose>,
+    method: &'static str,
+    /// Whether joint states helped.
+    joint_states: bool,
+    reason: Option<String>,
+}
+
+/// A pose as others read it.
+#[derive(Debug, Serialize)]
+struct Pose {
+    translation_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
+}
+
+/// How far off it is likely to be.
+#[derive(Debug, Serialize)]
+struct Error {
+    translation_mm: f64,
+    rotation_deg: f64,
+}
+
+impl Line {
+    /// Of a frame that cannot be read.
+    pub fn damaged(frame: &str, method: PoseMethod) -> Self {
+        Self::none(frame, method, false, "the frame is damaged")
+    }
+
+    fn none(frame: &str, method: PoseMethod, joint_states: bool, reason: &str) -> Self {
+        Self {
+            frame: frame.to_owned(),
+            answered: false,
+            camera_from_end_effector: None,
+            expected_error: None,
+            alternatives: Vec::new(),
+            method: method.name(),
+            joint_states,
+            reason: Some(reason.to_owned()),
+        }
+    }
+
+    /// Of what was found in a frame.
+    pub fn of(
+        frame: &str,
+        method: PoseMethod,
+        joint_states: bool,
+        found: Option<PoseAnswer>,
+    ) -> Self {
+        let Some(found) = found else {
+            return Self::none(
+                frame,
+                method,
+                joint_states,
+                "too little of the end-effector is in view",
+            );
+        };
+        let pose = |of: &eyebolt_geometry::Transform<_, _>| Pose {
+            translation_m: of.translation_m().into(),
+            rotation_xyzw: of.rotation_xyzw(),
+        };
+        let error =
+            |ExpectedError { translation_mm, rotation_deg }| Error { translation_mm, rotation_deg };
+        Self {
+            frame: frame.to_owned(),
+            answered: found.refusal.is_none(),
+            camera_from_end_effector: Some(pose(&found.camera_from_end_effector)),
+            expected_error: found.expected_error.map(error),
+            alternatives: found.alternatives.iter().map(pose).collect(),
+            method: method.name(),
+            joint_states,
+            reason: found.refusal.map(|refusal| refusal.to_string()),
+        }
+    }
+
+    /// For programs.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    /// For a person.
+    pub fn text(&self) -> String {
+        let Self { frame, camera_from_end_effector, expected_error, reason, .. } = self;
+        let Some(Pose { translation_m: [x, y, z], rotation_xyzw }) = camera_from_end_effector
+        else {
+            return format!("frame {frame}: no pose: {}", reason.as_deref().unwrap_or_default());
+        };
+        let [qx, qy, qz, qw] = rotation_xyzw;
+        let mut text = format!(
+            "frame {frame}: camera from end-effector {x:.4} {y:.4} {z:.4} m, xyzw {qx:.4} {qy:.4} {qz:.4} {qw:.4}"
+        );
+        if let Some(Error { translation_mm, rotation_deg }) = expected_error {
+            text += &format!(", expected error {translation_mm:.1} mm {rotation_deg:.2} deg");
+        }
+        if let Some(reason) = reason {
+            text += &format!("; not to be trusted: {reason}");
+        }
+        text
+    }
+}

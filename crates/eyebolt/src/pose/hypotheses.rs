@@ -1,0 +1,100 @@
+//! Where an end-effector may be, before anything is refined.
+
+use super::judge::Judge;
+use super::observed::Observed;
+use super::shape::EndEffectorShape;
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_registration::Posture;
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use std::f64::consts::PI;
+
+/// Who says that an end-effector may be there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A rotation network, and the translation that follows from it (RPT).
+    Rotation,
+    /// Matched points (KPM).
+    Keypoints,
+    /// A half turn of one of these: grippers look alike from behind.
+    Twin,
+}
+
+/// A pose to begin with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseHypothesis {
+    /// Pose of the end-effector, as of the base of the [`EndEffectorShape`].
+    pub pose: Transform<Camera, Base>,
+    /// Who says so.
+    pub source: Source,
+    /// How likely, by the network; that of its origin for a twin.
+    pub probability: f64,
+}
+
+/// The pose with this rotation: the translation where what the camera would see of the shape has its middle in
+/// the middle of what it saw.
+///
+/// The paper reads the translation off the bounding box of the points turned back, by a rule for the Panda's
+/// hand. What is drawn hides its own far side, so that this needs no rule, and its middle is a median, which one
+/// wrong point does not move.
+pub fn with_translation(
+    judge: &mut Judge<'_>,
+    shape: &EndEffectorShape,
+    posture: &Posture,
+    observed: &Observed,
+    rotation: UnitQuaternion<f64>,
+) -> Transform<Camera, Base> {
+    const ROUNDS: usize = 3;
+    let centre = shape.end_effector.mesh_box(&Default::default()).centre();
+    let target = observed.middle().coords;
+    let mut translation = target - rotation * centre.coords;
+    for _ in 0..ROUNDS {
+        let pose = Transform::from_parts(translation, rotation);
+        let Some(middle) = middle_drawn(judge, posture, observed, &pose) else { break };
+        translation += target - middle;
+    }
+    Transform::from_parts(translation, rotation)
+}
+
+/// Median of the points that are seen of the shape at `pose`, each coordinate by itself.
+fn middle_drawn(
+    judge: &mut Judge<'_>,
+    posture: &Posture,
+    observed: &Observed,
+    pose: &Transform<Camera, Base>,
+) -> Option<Vector3<f64>> {
+    let raster = judge.draw(posture, pose);
+    let rays = &observed.image.rays;
+    let point = |at: usize| {
+        let z = raster.depth_m(at)?;
+        let [x, y] = rays[at];
+        Some([x * z, y * z, z])
+    };
+    let points: Vec<[f32; 3]> = raster.pixels().filter_map(point).collect();
+    if points.is_empty() {
+        return None;
+    }
+    let middle = |axis: usize| {
+        let mut values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
+        let at = values.len() / 2;
+        f64::from(*values.select_nth_unstable_by(at, f32::total_cmp).1)
+    };
+    Some(Vector3::from([0, 1, 2].map(middle)))
+}
+
+/// `of` turned by half about each axis of the end-effector frame, through the middle of the shape.
+pub fn half_turns(shape: &EndEffectorShape, of: &PoseHypothesis) -> Vec<PoseHypothesis> {
+    let centre = shape.end_effector.mesh_box(&Default::default()).centre();
+    let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+    let turned = axes.map(|axis| {
+        let turn = about(&centre, UnitQuaternion::from_axis_angle(&axis, PI));
+        let pose = Transform::from_isometry(of.pose.isometry() * turn);
+        PoseHypothesis { pose, source: Source::Twin, ..*of }
+    });
+    turned.to_vec()
+}
+
+/// A turn about a point.
+fn about(through: &Point3<f64>, turn: UnitQuaternion<f64>) -> Isometry3<f64> {
+    let moved = through.coords - turn * through.coords;
+    Isometry3::from_parts(Translation3::from(moved), turn)
+}

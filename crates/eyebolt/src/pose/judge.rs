@@ -1,0 +1,107 @@
+//! How well a frame supports a pose of an end-effector.
+
+use super::observed::Observed;
+use super::shape::EndEffectorShape;
+use crate::segment::END_EFFECTOR;
+use eyebolt_geometry::{Base, Camera, Transform};
+use eyebolt_registration::Posture;
+use eyebolt_render::Raster;
+
+/// How well a frame supports a pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Support {
+    /// Mean over all pixels that say something, 0 to 1: how far the depth seen is from that of the posed shape, squared,
+    /// in units of three standard deviations; 1 for pixels that contradict it.
+    pub cost: f64,
+    /// Pixels that say something.
+    pub pixels: usize,
+    /// Of the end-effector's pixels, the share on the posed shape.
+    pub explained: f64,
+    /// Of the posed shape's pixels with depth that is not in front of it, the share where the camera saw through it.
+    pub seen_through: f64,
+}
+
+/// Draws poses and compares them with a frame.
+pub struct Judge<'a> {
+    shape: &'a EndEffectorShape,
+    observed: &'a Observed,
+    raster: Raster,
+}
+
+impl<'a> Judge<'a> {
+    /// Of poses of `shape` in what was `observed`.
+    pub fn new(shape: &'a EndEffectorShape, observed: &'a Observed) -> Self {
+        Self { shape, observed, raster: Raster::new(&observed.camera) }
+    }
+
+    /// Draws the shape at a pose.
+    pub fn draw(&mut self, posture: &Posture, pose: &Transform<Camera, Base>) -> &Raster {
+        let meshes = posture.meshes(&self.shape.model, pose);
+        self.raster.draw(&self.observed.camera, &meshes);
+        &self.raster
+    }
+
+    /// What the frame says of the shape at `pose`, by depth with this standard deviation, metres.
+    ///
+    /// Pixels that say something: those of the end-effector, and those of the posed shape where nothing is before
+    /// it. The camera cannot see through a shape, and what it saw of the end-effector has to be on it.
+    pub fn support(
+        &mut self,
+        posture: &Posture,
+        pose: &Transform<Camera, Base>,
+        deviation_m: f64,
+    ) -> Support {
+        self.draw(posture, pose);
+        let Observed { image, label, .. } = self.observed;
+        let reach = (3.0 * deviation_m) as f32;
+        let mut sums = Sums::default();
+        for (at, (seen, label)) in image.depth_m.iter().zip(label).enumerate() {
+            let (seen, of_it) = (*seen, *label == END_EFFECTOR);
+            match self.raster.depth_m(at) {
+                Some(drawn) if seen > 0.0 => {
+                    let off = (seen - drawn) / reach;
+                    if off < -1.0 && !of_it {
+                        // Something else is before it.
+                        continue;
+                    }
+                    sums.drawn += 1;
+                    sums.through += usize::from(off > 1.0);
+                    sums.add(f64::from(off * off).min(1.0), of_it);
+                }
+                None if of_it && seen > 0.0 => sums.add(1.0, true),
+                _ => {}
+            }
+        }
+        sums.support()
+    }
+}
+
+#[derive(Default)]
+struct Sums {
+    cost: f64,
+    pixels: usize,
+    of_it: usize,
+    explained: usize,
+    drawn: usize,
+    through: usize,
+}
+
+impl Sums {
+    fn add(&mut self, cost: f64, of_it: bool) {
+        self.cost += cost;
+        self.pixels += 1;
+        self.of_it += usize::from(of_it);
+        self.explained += usize::from(of_it && cost < 1.0);
+    }
+
+    fn support(&self) -> Support {
+        let share = |of: usize, all: usize| of as f64 / all.max(1) as f64;
+        let none = self.pixels == 0;
+        Support {
+            cost: if none { 1.0 } else { self.cost / self.pixels as f64 },
+            pixels: self.pixels,
+            explained: share(self.explained, self.of_it),
+            seen_through: share(self.through, self.drawn),
+        }
+    }
+}

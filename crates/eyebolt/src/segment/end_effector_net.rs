@@ -1,0 +1,155 @@
+//! Where the end-effector ends, by a network that looks at it from near.
+
+use super::segmenter::{ARM, END_EFFECTOR, SegmentError};
+use super::thinned::Thinned;
+use super::upsample::upsample;
+use super::window::{Part, WINDOW_FEATURES, Window, part_around};
+use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
+use eyebolt_net::models::{Architecture, Model};
+use eyebolt_net::{Batch, Cpu, Executor, Graph, Matrix};
+use std::collections::BTreeMap;
+
+/// A network that tells the end-effector from the arm and from what is around, in a window at the
+/// camera's full resolution: of a whole frame at 160 columns a hand has too few pixels.
+#[derive(Debug)]
+pub struct EndEffectorNet {
+    model: Model,
+    executor: Cpu,
+    half_m: f32,
+}
+
+/// What is found in a window.
+struct Found {
+    image: Thinned,
+    part: Part,
+    window: Window,
+    logits: Matrix,
+    /// Area of the end-effector, as its pixels times their depths squared.
+    area: f64,
+    /// Middle of it, camera frame, metres; that of the window if there is none.
+    middle: [f32; 3],
+}
+
+/// The window is laid anew if its middle was off by this share of its half.
+const OFF: f32 = 0.15;
+
+impl EndEffectorNet {
+    /// Of a model.
+    ///
+    /// # Errors
+    ///
+    /// It is a model of something else.
+    pub fn new(model: Model) -> Result<Self, SegmentError> {
+        let about = &model.description;
+        let other = |field, problem: String| Err(SegmentError::OtherModel { field, problem });
+        if about.features != WINDOW_FEATURES {
+            return other("features", format!("{:?} are not {WINDOW_FEATURES:?}", about.features));
+        }
+        if about.classes != CLASSES || !matches!(about.architecture, Architecture::Minkunet(_)) {
+            return other("classes", format!("{:?} are not {CLASSES:?}", about.classes));
+        }
+        let Some(edge_m) = about.window_m else {
+            return other("window_m", "missing; say how wide the window is".into());
+        };
+        Ok(Self { model, executor: Cpu::new(), half_m: 0.5 * edge_m })
+    }
+
+    /// Labels of the pixels of `depth` about the end-effector, anew; that label is taken from all others.
+    ///
+    /// It is looked for where `label` has it, else all along the arm.
+    ///
+    /// # Errors
+    ///
+    /// No memory.
+    pub fn refine(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        rays: &RayTable,
+        label: &mut [u8],
+    ) -> Result<(), SegmentError> {
+        let mut best: Option<Found> = None;
+        for place in self.places(depth, rays, label) {
+            let found = self.look(depth, camera, place)?;
+            let area = best.as_ref().map_or(0.0, |best| best.area);
+            best = found.filter(|found| found.area > area).or(best);
+        }
+        label.iter_mut().filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);
+        let Some(mut best) = best else { return Ok(()) };
+        if let Some(again) = self.look(depth, camera, best.middle)? {
+            best = if again.area >= (1.0 - f64::from(OFF)) * best.area { again } else { best };
+        }
+        let Found { image, part, window, logits, middle, .. } = &best;
+        let range = middle[2] - self.half_m..middle[2] + self.half_m;
+        upsample(depth, (image, &window.pixels, logits), part, &range, label);
+        Ok(())
+    }
+
+    /// Where the end-effector may be.
+    fn places(&self, depth: &DepthImage, rays: &RayTable, label: &[u8]) -> Vec<[f32; 3]> {
+        let point = |at: usize| <[f32; 3]>::from(rays.point(at, depth.depth_m()[at]));
+        let seen = (0..label.len()).filter(|at| label[*at] == END_EFFECTOR).map(point);
+        if let Some(middle) = middle(seen) {
+            return vec![middle];
+        }
+        // One in each cube of the arm.
+        let mut cubes: BTreeMap<[i32; 3], Vec<[f32; 3]>> = BTreeMap::new();
+        for point in (0..label.len()).filter(|at| label[*at] == ARM).map(point) {
+            let cube = point.map(|value| (value / self.half_m).floor() as i32);
+            cubes.entry(cube).or_default().push(point);
+        }
+        cubes.into_values().filter_map(|points| middle(points.into_iter())).collect()
+    }
+
+    fn look(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        place: [f32; 3],
+    ) -> Result<Option<Found>, SegmentError> {
+        let Some((image, part)) = part_around(depth, camera, place, self.half_m) else {
+            return Ok(None);
+        };
+        let Some(window) = Window::new(&image, place, self.half_m) else { return Ok(None) };
+        let Model { graph, parameters, .. } = &self.model;
+        let batch = window_batch(graph, &[&window])?;
+        let logits = self.executor.infer(graph, parameters, &batch)?.swap_remove(0);
+        let classes = logits.argmax();
+        let of_it = window.pixels.iter().zip(&classes);
+        let of_it =
+            of_it.filter(|(_, class)| **class == u32::from(END_EFFECTOR)).map(|(at, _)| *at);
+        let area = of_it.clone().map(|at| f64::from(image.depth_m[at]).powi(2)).sum::<f64>();
+        let area = area * (image.step * image.step) as f64;
+        let middle = middle(of_it.map(|at| image.point(at))).unwrap_or(place);
+        Ok(Some(Found { image, part, window, logits, area, middle }))
+    }
+}
+
+/// Names of the classes, in their order.
+pub const CLASSES: [&str; 3] = ["background", "arm", "end_effector"];
+
+/// Windows as a network takes them.
+///
+/// # Errors
+///
+/// Another network, or no window.
+pub fn window_batch(graph: &Graph, windows: &[&Window]) -> Result<Batch, eyebolt_net::Error> {
+    let values: Vec<f32> = windows.iter().flat_map(|window| &window.features).copied().collect();
+    let rows = windows.iter().map(|window| window.cells.len()).sum();
+    let cells: Vec<&[[u32; 2]]> = windows.iter().map(|window| window.cells.as_slice()).collect();
+    Batch::from_images(graph, &cells, &Matrix::new(rows, WINDOW_FEATURES.len(), values)?)
+}
+
+/// Median of each coordinate by itself.
+fn middle(points: impl Iterator<Item = [f32; 3]>) -> Option<[f32; 3]> {
+    let points: Vec<[f32; 3]> = points.collect();
+    if points.is_empty() {
+        return None;
+    }
+    let of = |axis: usize| {
+        let mut values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
+        let at = values.len() / 2;
+        *values.select_nth_unstable_by(at, f32::total_cmp).1
+    };
+    Some([0, 1, 2].map(of))
+}
