@@ -1,4 +1,4 @@
-//! How far poses of an end-effector are off where the truth is known: `pose_truth MODEL [ROBOT.urdf] [--frames N]`
+//! How far poses of an end-effector are off where the truth is known: `pose_truth MODEL [ROBOT.urdf] [--frames N] [--each]`
 //!
 //! The paper's three test poses of the camera, its Kinect v1, six configurations of ten frames each (or N). ROBOT is
 //! `shackle` unless a URDF is named. As the paper's table of poses: mean and standard deviation of translation, rotation
@@ -35,6 +35,8 @@ const ROWS: [(&str, PoseMethod, bool); 5] = [
 /// Errors of one row.
 #[derive(Default)]
 struct Row {
+    /// Whether every frame is told.
+    each: bool,
     frames: usize,
     answered: usize,
     translation_mm: Vec<f64>,
@@ -63,6 +65,18 @@ impl Row {
             off.sum::<f64>() / points.len() as f64
         };
         let add = shape.twins().iter().map(add).fold(f64::INFINITY, f64::min);
+        if self.each {
+            let (support, refusal) = (found.support, found.refusal);
+            let expected =
+                found.expected_error.map_or((0.0, 0.0), |it| (it.translation_mm, it.rotation_deg));
+            println!(
+                "  ADD {:.2} mm, {:.2} mm {:.2} deg of expected {expected:.2?}, {:?}, {support:.3?} {refusal:?}",
+                1e3 * add,
+                1e3 * metres,
+                radians.to_degrees(),
+                found.source
+            );
+        }
         if found.refusal.is_some() {
             self.refused_right += usize::from(add < 0.01);
             return;
@@ -104,11 +118,12 @@ impl Row {
 }
 
 fn main() -> Result<(), Failure> {
-    let (mut model, mut urdf, mut frames) = (None, None, 10);
+    let (mut model, mut urdf, mut frames, mut each) = (None, None, 10, false);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--frames" => frames = arguments.next().ok_or("--frames N")?.parse()?,
+            "--each" => each = true,
             _ if model.is_none() => model = Some(argument),
             _ => urdf = Some(argument),
         }
@@ -126,7 +141,7 @@ fn main() -> Result<(), Failure> {
                 continue;
             };
             estimator.refines = refines;
-            let (mut row, mut seconds) = (Row::default(), 0.0);
+            let (mut row, mut seconds) = (Row { each, ..Row::default() }, 0.0);
             for (index, preset) in
                 PRESETS.iter().enumerate().filter(|(_, it)| it.name.contains("test"))
             {

@@ -1,9 +1,11 @@
 //! Where the base may be: hypotheses for `camera_from_base`; and what networks say of the end-effector.
 
+mod contest;
 mod estimator;
 mod global_search;
 mod hypotheses;
 mod judge;
+mod judged;
 mod keypoint_net;
 mod method;
 mod observed;

@@ -1,7 +1,9 @@
 //! Which pixels are the arm, and which the end-effector, by what a network learned.
 
+mod classes;
 mod cluster;
 mod end_effector_net;
+mod error;
 mod features;
 mod grid;
 mod open;
@@ -10,12 +12,12 @@ mod thinned;
 mod upsample;
 mod window;
 
-pub use end_effector_net::{CLASSES, EndEffectorNet, window_batch};
+pub use classes::{ARM, BACKGROUND, CLASSES, END_EFFECTOR, UNKNOWN};
+pub use end_effector_net::{EndEffectorNet, window_batch};
+pub use error::SegmentError;
 pub use features::{FEATURES, features};
 pub use grid::Grid;
-pub use segmenter::{
-    ARM, BACKGROUND, END_EFFECTOR, SegmentError, Segmentation, Segmenter, UNKNOWN,
-};
+pub use segmenter::{Segmentation, Segmenter};
 pub use thinned::Thinned;
 pub use window::{
     WINDOW_COLUMNS, WINDOW_FEATURES, Window, part_around, window_half_m, window_step,

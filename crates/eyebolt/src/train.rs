@@ -37,5 +37,5 @@ pub use rotation::RotationLesson;
 pub use run::{Beginning, Keep, Report, pace, teach};
 pub use scores::{ClassScore, Confusion};
 pub use segmentation::SegmentationLesson;
-pub use shot::{Cast, Framing, Shot};
+pub use shot::{At, Cast, Framing, Shot};
 pub use tensorboard::events;

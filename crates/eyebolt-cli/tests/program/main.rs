@@ -12,6 +12,7 @@ mod info;
 mod label;
 mod messages;
 mod outcome;
+mod pose;
 mod program;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;

@@ -1,17 +1,18 @@
 //! The pose of an end-effector from one frame.
 
+use super::contest::Contest;
 use super::hypotheses::{PoseHypothesis, Source, half_turns, with_translation};
 use super::judge::{Judge, Support};
+use super::judged::{COARSE_M, Judged};
 use super::keypoint_net::KeypointNet;
 use super::observed::Observed;
 use super::rotation_net::RotationNet;
 use super::shape::EndEffectorShape;
-use super::trust::{ExpectedError, Refusal, expected_error, refusal};
+use super::trust::{ExpectedError, Refusal, expected_error, is_as_good, refusal};
 use super::{PoseError, PoseMethod};
 use eyebolt_geometry::{Camera, DepthImage, EndEffector, PinholeCamera, Transform};
-use eyebolt_registration::{Icp, IcpOptions, Posture, icp};
+use eyebolt_registration::Posture;
 use eyebolt_robot::JointPositions;
-use nalgebra::Point3;
 
 /// Tells the pose of an end-effector from one frame whose pixels are labelled.
 #[derive(Debug)]
@@ -41,26 +42,6 @@ pub struct PoseAnswer {
     /// Why it should not be used, if so.
     pub refusal: Option<Refusal>,
 }
-
-/// A hypothesis that was refined and judged.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Judged {
-    pub(super) hypothesis: PoseHypothesis,
-    pub(super) fit: Icp,
-    pub(super) support: Support,
-    /// Which of the openings of its fingers.
-    opening: usize,
-}
-
-/// Points of the first refinement, which is only to tell hypotheses apart.
-const FEW: usize = 300;
-/// Hypotheses that are refined in full.
-const FINALISTS: usize = 4;
-/// Deviation of the depth while hypotheses are told apart, as a share of it squared, and at the camera, metres.
-const COARSE_M: f64 = 0.004;
-/// Poses nearer to each other than this are the same one, metres and radians.
-const SAME_M: f64 = 0.01;
-const SAME_RAD: f64 = 0.1;
 
 impl PoseEstimator {
     /// Of `shape`, by the networks that there are; at least one.
@@ -114,43 +95,11 @@ impl PoseEstimator {
         };
         let posture = &openings[0];
         let hypotheses = self.hypotheses(&observed, posture)?;
-        let shape = &self.shape;
-        let mut judge = Judge::new(shape, &observed);
+        let contest = Contest { shape: &self.shape, observed: &observed, openings: &openings };
         if !self.refines {
-            let Some(first) = hypotheses.first() else { return Ok(None) };
-            let support = judge.support(posture, &first.pose, 3.0 * COARSE_M);
-            return Ok(Some(PoseAnswer {
-                camera_from_end_effector: Transform::from_isometry(*first.pose.isometry()),
-                source: first.source,
-                expected_error: None,
-                support,
-                alternatives: Vec::new(),
-                refusal: None,
-            }));
+            return Ok(hypotheses.first().map(|first| as_it_is(&contest, first)));
         }
-        let few: Vec<Point3<f32>> = every(&observed.points, FEW);
-        let mut judged: Vec<Judged> = hypotheses
-            .into_iter()
-            .map(|hypothesis| refined(&mut judge, shape, (posture, 0), &few, hypothesis, FIRST))
-            .collect();
-        keep_distinct(shape, &mut judged, FINALISTS);
-        let mut last = Vec::new();
-        for it in &judged {
-            let again = PoseHypothesis { pose: it.fit.camera_from_base, ..it.hypothesis };
-            for posture in openings.iter().zip(0..) {
-                last.push(refined(&mut judge, shape, posture, &observed.points, again, LAST));
-            }
-        }
-        let mut judged = last;
-        // By one measure for all: that of the best.
-        let deviation_m = judged.iter().map(|it| it.fit.deviation_m).fold(f64::INFINITY, f64::min);
-        let deviation_m = deviation_m.max(0.5 * LAST.least_scale_m);
-        for it in &mut judged {
-            let posture = &openings[it.opening];
-            it.support = judge.support(posture, &it.fit.camera_from_base, 1.5 * deviation_m);
-        }
-        keep_distinct(shape, &mut judged, FINALISTS);
-        Ok(answer(&observed, &judged))
+        Ok(answer(&observed, &contest.ranked(hypotheses)))
     }
 
     fn hypotheses(
@@ -185,51 +134,23 @@ impl PoseEstimator {
     }
 }
 
-/// From centimetres and a dozen degrees on, by few points.
-const FIRST: IcpOptions = IcpOptions { first_scale_m: 0.03, least_scale_m: 0.004, most_steps: 15 };
-/// On from there.
-const LAST: IcpOptions = IcpOptions { first_scale_m: 0.01, least_scale_m: 0.002, most_steps: 30 };
-
-fn refined(
-    judge: &mut Judge<'_>,
-    shape: &EndEffectorShape,
-    (posture, opening): (&Posture, usize),
-    points: &[Point3<f32>],
-    hypothesis: PoseHypothesis,
-    options: IcpOptions,
-) -> Judged {
-    let fit = icp(&shape.model, posture, points, &hypothesis.pose, &options);
-    let deviation_m = fit.deviation_m.clamp(COARSE_M, 2.0 * COARSE_M);
-    let support = judge.support(posture, &fit.camera_from_base, deviation_m);
-    Judged { hypothesis, fit, support, opening }
-}
-
-/// About `count` of `points`, evenly chosen.
-fn every(points: &[Point3<f32>], count: usize) -> Vec<Point3<f32>> {
-    points.iter().step_by(points.len().div_ceil(count).max(1)).copied().collect()
-}
-
-/// Best first; of those that are the same pose, the best alone; and no more than `most`.
-fn keep_distinct(shape: &EndEffectorShape, judged: &mut Vec<Judged>, most: usize) {
-    judged.sort_by(|a, b| a.support.cost.total_cmp(&b.support.cost));
-    let mut kept: Vec<Judged> = Vec::new();
-    for it in judged.drain(..) {
-        let same = |other: &Judged| {
-            let poses = [other, &it].map(|of| *of.fit.camera_from_base.isometry());
-            let (metres, radians) = shape.apart(&poses[0], &poses[1]);
-            metres < SAME_M && radians < SAME_RAD
-        };
-        if kept.len() < most && !kept.iter().any(same) {
-            kept.push(it);
-        }
+/// A hypothesis as the networks have it.
+fn as_it_is(contest: &Contest<'_>, first: &PoseHypothesis) -> PoseAnswer {
+    let mut judge = Judge::new(contest.shape, contest.observed);
+    PoseAnswer {
+        camera_from_end_effector: Transform::from_isometry(*first.pose.isometry()),
+        source: first.source,
+        expected_error: None,
+        support: judge.support(&contest.openings[0], &first.pose, 3.0 * COARSE_M),
+        alternatives: Vec::new(),
+        refusal: None,
     }
-    *judged = kept;
 }
 
 fn answer(observed: &Observed, judged: &[Judged]) -> Option<PoseAnswer> {
     let (best, others) = judged.split_first()?;
     let pose = |it: &Judged| Transform::from_isometry(*it.fit.camera_from_base.isometry());
-    let alternatives = others.iter().filter(|other| super::trust::is_as_good(best, other));
+    let alternatives = others.iter().filter(|other| is_as_good(best, other));
     let alternatives: Vec<_> = alternatives.map(pose).collect();
     Some(PoseAnswer {
         camera_from_end_effector: pose(best),

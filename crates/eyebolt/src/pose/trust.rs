@@ -1,6 +1,6 @@
 //! How far to trust the pose of an end-effector.
 
-use super::estimator::Judged;
+use super::judged::Judged;
 use super::observed::Observed;
 use eyebolt_geometry::{Camera, EndEffector, Transform};
 use eyebolt_registration::{Icp, StopReason};

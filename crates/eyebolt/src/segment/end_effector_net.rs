@@ -1,6 +1,7 @@
 //! Where the end-effector ends, by a network that looks at it from near.
 
-use super::segmenter::{ARM, END_EFFECTOR, SegmentError};
+use super::classes::{ARM, CLASSES, END_EFFECTOR};
+use super::error::SegmentError;
 use super::thinned::Thinned;
 use super::upsample::upsample;
 use super::window::{Part, WINDOW_FEATURES, Window, part_around};
@@ -24,7 +25,7 @@ struct Found {
     part: Part,
     window: Window,
     logits: Matrix,
-    /// Area of the end-effector, as its pixels times their depths squared.
+    /// Area of the end-effector, as its pixels times their depths squared, by how sure the network is of each.
     area: f64,
     /// Middle of it, camera frame, metres; that of the window if there is none.
     middle: [f32; 3],
@@ -114,19 +115,21 @@ impl EndEffectorNet {
         let Model { graph, parameters, .. } = &self.model;
         let batch = window_batch(graph, &[&window])?;
         let logits = self.executor.infer(graph, parameters, &batch)?.swap_remove(0);
-        let classes = logits.argmax();
-        let of_it = window.pixels.iter().zip(&classes);
-        let of_it =
-            of_it.filter(|(_, class)| **class == u32::from(END_EFFECTOR)).map(|(at, _)| *at);
-        let area = of_it.clone().map(|at| f64::from(image.depth_m[at]).powi(2)).sum::<f64>();
-        let area = area * (image.step * image.step) as f64;
-        let middle = middle(of_it.map(|at| image.point(at))).unwrap_or(place);
+        let sure = window.pixels.iter().zip(0..).map(|(at, row)| (*at, sure_of(logits.row(row))));
+        let sure: Vec<(usize, f64)> = sure.filter(|(_, sure)| *sure > 0.0).collect();
+        let area = |(at, sure): &(usize, f64)| sure * f64::from(image.depth_m[*at]).powi(2);
+        let area = sure.iter().map(area).sum::<f64>() * (image.step * image.step) as f64;
+        let middle = middle(sure.iter().map(|(at, _)| image.point(*at))).unwrap_or(place);
         Ok(Some(Found { image, part, window, logits, area, middle }))
     }
 }
 
-/// Names of the classes, in their order.
-pub const CLASSES: [&str; 3] = ["background", "arm", "end_effector"];
+/// By how much the end-effector is likelier than not, 0 to 1, by a row of logits.
+fn sure_of(logits: &[f32]) -> f64 {
+    let own = logits[usize::from(END_EFFECTOR)];
+    let total: f32 = logits.iter().map(|logit| (logit - own).exp()).sum();
+    (2.0 / f64::from(total) - 1.0).max(0.0)
+}
 
 /// Windows as a network takes them.
 ///

@@ -1,7 +1,8 @@
 //! Networks in the folder of a model.
 
 use super::end_effector_net::EndEffectorNet;
-use super::segmenter::{SegmentError, Segmenter};
+use super::error::SegmentError;
+use super::segmenter::Segmenter;
 use eyebolt_net::models::Model;
 use std::path::Path;
 

@@ -1,7 +1,9 @@
 //! From a depth image to labels of its pixels.
 
+use super::classes::{ARM, BACKGROUND, END_EFFECTOR, UNKNOWN};
 use super::cluster::{ARM_LINKAGE_M, END_EFFECTOR_LINKAGE_M, keep_largest_cluster};
 use super::end_effector_net::EndEffectorNet;
+use super::error::SegmentError;
 use super::features::FEATURES;
 use super::grid::Grid;
 use super::thinned::Thinned;
@@ -9,68 +11,6 @@ use super::upsample::upsample;
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
 use eyebolt_net::models::{Architecture, Model};
 use eyebolt_net::{Cpu, Executor};
-use std::path::{Path, PathBuf};
-
-/// Nothing, or something that is not the arm.
-pub const BACKGROUND: u8 = 0;
-/// The arm; without its end-effector, if the network tells that apart.
-pub const ARM: u8 = 1;
-/// The end-effector and every link below it.
-pub const END_EFFECTOR: u8 = 2;
-/// Nobody can say: there is no depth; or, in images to learn from, a tool that no description has.
-pub const UNKNOWN: u8 = 255;
-
-/// Why nothing is segmented.
-#[derive(Debug, thiserror::Error)]
-pub enum SegmentError {
-    /// Of the network: broken files, too large an image.
-    #[error(transparent)]
-    Net(#[from] eyebolt_net::Error),
-    /// The network is for something else.
-    #[error(
-        "model.toml: {field}: {problem}. Name the folder of a segmentation that eyebolt train made"
-    )]
-    OtherModel {
-        /// The field.
-        field: &'static str,
-        /// What is wrong with it.
-        problem: String,
-    },
-    /// A file of the model cannot be read.
-    #[error(
-        "{}: cannot read it. Name the folder of a model with --model, or make one with eyebolt train",
-        path.display()
-    )]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// In the folder of a model.
-    #[error("{}", folder.display())]
-    Model {
-        /// The folder.
-        folder: PathBuf,
-        /// What is wrong there.
-        source: Box<SegmentError>,
-    },
-    /// Image and camera are of different sizes.
-    #[error("the depth image has {found:?} pixels, its camera {camera:?}")]
-    Size {
-        /// Width and height of the image.
-        found: (u32, u32),
-        /// Those of the camera.
-        camera: (u32, u32),
-    },
-}
-
-impl SegmentError {
-    /// This error, as one of the network in `folder`.
-    pub(super) fn of(self, folder: &Path) -> Self {
-        Self::Model { folder: folder.to_owned(), source: Box::new(self) }
-    }
-}
 
 /// A network that tells the arm from the rest.
 #[derive(Debug)]

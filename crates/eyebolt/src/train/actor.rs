@@ -122,6 +122,12 @@ impl Actor {
         bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
     }
 
+    /// Middle of the box around one of its shapes, in the frame of its link, metres.
+    pub fn middle(&self, shape: usize) -> Point3<f64> {
+        let bounds = self.meshes[shape].bounds();
+        bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
+    }
+
     /// Diagonal of that box, metres, and at least a few centimetres.
     pub fn end_effector_extent_m(&self) -> f64 {
         let bounds = self.end_effector_bounds();

@@ -5,7 +5,7 @@ use super::images::Images;
 use super::lesson::Lesson;
 use super::scores::Confusion;
 use super::segmentation::label_loss;
-use super::shot::{Framing, Shot};
+use super::shot::{At, Framing, Shot};
 use crate::segment::{
     BACKGROUND, CLASSES, END_EFFECTOR, WINDOW_COLUMNS, WINDOW_FEATURES, Window, window_batch,
     window_half_m,
@@ -49,6 +49,9 @@ const WINDOWS: u64 = 2;
 /// a network that sees the whole frame may be off. And how often one is anywhere on the arm.
 const OFF: f64 = 0.25;
 const ANYWHERE: f64 = 0.15;
+/// Share of the steps whose images look at any part of the arm: where it is not known where the end-effector is, it
+/// is looked for all along the arm.
+const ALONG_THE_ARM: f64 = 0.25;
 /// Share of the steps whose images have a room around: it takes longer to draw than all else.
 const IN_A_ROOM: f64 = 0.35;
 
@@ -73,17 +76,26 @@ impl EndEffectorLesson {
     fn windows(&self, stream: u64, step: u64) -> Result<Vec<Labelled>, TrainError> {
         let random = Random::new(self.seed).at(stream).at(step);
         let room = random.at(0).uniform() < IN_A_ROOM;
-        let framing = Framing { room, ..Framing::AT_END_EFFECTOR };
+        let along = random.at(0).at(1).uniform() < ALONG_THE_ARM;
+        let framing = match along {
+            true => Framing {
+                room,
+                at: At::AnyPart,
+                with_end_effector: false,
+                ..Framing::AT_END_EFFECTOR
+            },
+            false => Framing { room, ..Framing::AT_END_EFFECTOR },
+        };
         let shots = self.source.shots(random.at(1), self.images, framing)?;
         let windows = shots.iter().zip(0..).flat_map(|(shot, image)| {
             let random = random.at(2).at(image);
-            (0..WINDOWS).filter_map(move |window| self.window(shot, &mut random.at(window)))
+            (0..WINDOWS).filter_map(move |window| self.window(shot, along, &mut random.at(window)))
         });
         Ok(windows.collect())
     }
 
-    fn window(&self, shot: &Shot, random: &mut Random) -> Option<Labelled> {
-        let anywhere = random.uniform() < ANYWHERE;
+    fn window(&self, shot: &Shot, along: bool, random: &mut Random) -> Option<Labelled> {
+        let anywhere = along || random.uniform() < ANYWHERE;
         let counts = |label: u8| if anywhere { label != BACKGROUND } else { label == END_EFFECTOR };
         let seen: Vec<usize> = shot.image.seen().filter(|at| counts(shot.label[*at])).collect();
         if seen.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::corrupt::corrupt;
 use super::error::TrainError;
-use super::shot::{Cast, Framing, Shot};
+use super::shot::{At, Cast, Framing, Shot};
 use crate::dataset::{Dataset, DatasetFrame, code};
 use crate::segment::{Thinned, UNKNOWN};
 use eyebolt_render::Random;
@@ -84,7 +84,7 @@ impl Images {
 /// A frame as networks see it: thinned, or around an end-effector all of its pixels.
 fn shot_of(frame: DatasetFrame, framing: Framing) -> Shot {
     let columns =
-        if framing.at_end_effector { frame.camera.width() as usize } else { framing.columns };
+        if framing.at != At::Arm { frame.camera.width() as usize } else { framing.columns };
     let image = Thinned::new(&frame.depth, &frame.camera, columns);
     let width = frame.camera.width() as usize;
     let label = (0..image.depth_m.len()).map(|at| {

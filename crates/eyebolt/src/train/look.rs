@@ -4,7 +4,7 @@ use super::actor::{Actor, Pose};
 use crate::segment::{window_half_m, window_step};
 use eyebolt_geometry::{Base, Camera, Distortion, PinholeCamera, Transform};
 use eyebolt_render::Random;
-use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 
 /// A camera of usual shape and angle of view, somewhere around, with the arm in view.
 pub fn look_at_arm(
@@ -26,10 +26,10 @@ pub fn look_at_arm(
     (camera, from_anywhere(random, at, distance))
 }
 
-/// The part of an image of some camera that shows the end-effector.
-pub fn look_at_end_effector(
+/// The part of an image of some camera that shows `middle`, base frame, metres, as near as it would show the end-effector.
+pub fn look_from_near(
     actor: &Actor,
-    pose: &Pose,
+    middle: Point3<f64>,
     random: &mut Random,
     columns: usize,
 ) -> (PinholeCamera, Transform<Base, Camera>) {
@@ -39,7 +39,6 @@ pub fn look_at_end_effector(
     let focal = random.between(380.0, 750.0);
     let half_px = f64::from(window_half_m(extent)) * focal / distance;
     let focal = focal / window_step(half_px) as f64;
-    let middle = pose.base_from_end_effector.point(&actor.end_effector_middle());
     let base_from_axis = from_anywhere(random, middle.coords, distance);
     // Beside the optical axis of the whole image.
     let aside = [0, 1].map(|_| 0.25 * random.normal());

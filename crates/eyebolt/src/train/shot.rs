@@ -5,7 +5,7 @@ use super::corrupt::corrupt;
 use super::drawing::Drawing;
 use super::error::TrainError;
 use super::invented::invented_arm;
-use super::look::{look_at_arm, look_at_end_effector};
+use super::look::{look_at_arm, look_from_near};
 use super::scenery::scenery;
 use crate::segment::{END_EFFECTOR, Thinned};
 use eyebolt_geometry::{Camera, EndEffector, Transform};
@@ -39,13 +39,24 @@ pub struct Shot {
     pub joints: JointPositions,
 }
 
+/// What a camera looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum At {
+    /// The whole arm.
+    Arm,
+    /// Its end-effector, from near.
+    EndEffector,
+    /// Any part of the arm, from as near.
+    AnyPart,
+}
+
 /// What images are like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     /// Pixels in a row.
     pub columns: usize,
-    /// Whether the camera looks at the end-effector, from near, instead of at the arm.
-    pub at_end_effector: bool,
+    /// What the camera looks at.
+    pub at: At,
     /// Whether there is a room around, or only a plane behind.
     pub room: bool,
     /// Whether most images of the arm have to show its end-effector, too.
@@ -56,17 +67,12 @@ pub struct Framing {
 
 impl Framing {
     /// The arm in its room, as a segmentation sees it.
-    pub const ARM: Self = Self {
-        columns: 160,
-        at_end_effector: false,
-        room: true,
-        with_end_effector: false,
-        faults: true,
-    };
+    pub const ARM: Self =
+        Self { columns: 160, at: At::Arm, room: true, with_end_effector: false, faults: true };
     /// The part of an image with the end-effector.
     pub const AT_END_EFFECTOR: Self = Self {
         columns: 104,
-        at_end_effector: true,
+        at: At::EndEffector,
         room: false,
         with_end_effector: true,
         faults: true,
@@ -166,14 +172,24 @@ impl Cast {
 fn in_view(actor: &Actor, random: Random, framing: Framing) -> Option<Drawing<'_>> {
     let mut style = random.at(0);
     let pose = any_pose(actor, &mut random.at(1))?;
-    let look = if framing.at_end_effector { look_at_end_effector } else { look_at_arm };
-    let (camera, base_from_camera) = look(actor, &pose, &mut style, framing.columns);
-    let drawing = Drawing::new(actor, pose, camera, base_from_camera);
-    let share = match framing.at_end_effector {
-        true => drawing.share_of(|label| label == END_EFFECTOR),
-        false => drawing.share_of(|_| true),
+    let (camera, base_from_camera) = match framing.at {
+        At::Arm => look_at_arm(actor, &pose, &mut style, framing.columns),
+        At::EndEffector => {
+            let middle = pose.base_from_end_effector.point(&actor.end_effector_middle());
+            look_from_near(actor, middle, &mut style, framing.columns)
+        }
+        At::AnyPart => {
+            let part = style.index(actor.meshes.len());
+            let middle = pose.base_from_link[part].point(&actor.middle(part));
+            look_from_near(actor, middle, &mut style, framing.columns)
+        }
     };
-    let nothing = !framing.at_end_effector && style.uniform() < NOTHING;
+    let drawing = Drawing::new(actor, pose, camera, base_from_camera);
+    let share = match framing.at {
+        At::EndEffector => drawing.share_of(|label| label == END_EFFECTOR),
+        At::Arm | At::AnyPart => drawing.share_of(|_| true),
+    };
+    let nothing = framing.at == At::Arm && style.uniform() < NOTHING;
     if framing.with_end_effector && style.uniform() < WITH_END_EFFECTOR {
         let hand = drawing.share_of(|label| label == END_EFFECTOR);
         return (hand >= LEAST_END_EFFECTOR).then_some(drawing);

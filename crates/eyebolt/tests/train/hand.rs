@@ -6,6 +6,7 @@ use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet};
 use eyebolt::simulate::{Faults, PRESETS, Scenario, Viewpoint, plan as plan_of};
 use eyebolt::train::{Beginning, teach};
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
+use eyebolt_recording::FrameSource;
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
 use nalgebra::{Isometry3, Point3};

@@ -1,0 +1,83 @@
+//! Hypotheses against each other.
+
+use super::hypotheses::PoseHypothesis;
+use super::judge::Judge;
+use super::judged::{Judged, keep_distinct, refined};
+use super::observed::Observed;
+use super::shape::EndEffectorShape;
+use eyebolt_registration::{IcpOptions, Posture};
+use nalgebra::Point3;
+use rayon::prelude::*;
+
+/// What hypotheses are held against.
+#[derive(Clone, Copy)]
+pub struct Contest<'a> {
+    /// The end-effector.
+    pub shape: &'a EndEffectorShape,
+    /// What was seen of it.
+    pub observed: &'a Observed,
+    /// Openings of its fingers, at least one; the first one until the last round.
+    pub openings: &'a [Posture],
+}
+
+/// Points of the first round, which is only to tell hypotheses apart.
+const FEW: usize = 300;
+/// Hypotheses of the second round, and those of them whose fingers are opened and closed.
+const FINALISTS: usize = 4;
+const OPENED: usize = 2;
+/// From centimetres and a dozen degrees on, by few points.
+const FIRST: IcpOptions = IcpOptions { first_scale_m: 0.03, least_scale_m: 0.004, most_steps: 15 };
+/// On from there.
+const LAST: IcpOptions = IcpOptions { first_scale_m: 0.01, least_scale_m: 0.002, most_steps: 30 };
+
+impl Contest<'_> {
+    /// The best of `hypotheses`, refined, best first; no two are the same pose.
+    pub fn ranked(&self, hypotheses: Vec<PoseHypothesis>) -> Vec<Judged> {
+        let points = &self.observed.points;
+        let step = points.len().div_ceil(FEW).max(1);
+        let few: Vec<Point3<f32>> = points.iter().step_by(step).copied().collect();
+        let mut judged = self.round(hypotheses.into_iter().map(|it| (it, 0)), &few, FIRST);
+        keep_distinct(self.shape, &mut judged, FINALISTS);
+        let again = |it: &Judged| PoseHypothesis { pose: it.fit.camera_from_base, ..it.hypothesis };
+        let entries = judged.iter().map(|it| (again(it), 0));
+        let mut judged = self.round(entries, points, LAST);
+        self.by_one_measure(&mut judged);
+        keep_distinct(self.shape, &mut judged, FINALISTS);
+        let opened = judged.iter().take(OPENED).flat_map(|it| {
+            let hypothesis = again(it);
+            (1..self.openings.len()).map(move |opening| (hypothesis, opening))
+        });
+        let opened = self.round(opened.collect::<Vec<_>>().into_iter(), points, LAST);
+        judged.extend(opened);
+        self.by_one_measure(&mut judged);
+        keep_distinct(self.shape, &mut judged, FINALISTS);
+        judged
+    }
+
+    /// Hypotheses with the numbers of their openings, each by itself.
+    fn round(
+        &self,
+        entries: impl Iterator<Item = (PoseHypothesis, usize)>,
+        points: &[Point3<f32>],
+        options: IcpOptions,
+    ) -> Vec<Judged> {
+        let entries: Vec<_> = entries.collect();
+        let judge = || Judge::new(self.shape, self.observed);
+        let judged = entries.into_par_iter().map_init(judge, |judge, (hypothesis, opening)| {
+            let posture = (&self.openings[opening], opening);
+            refined(judge, self.shape, posture, points, hypothesis, options)
+        });
+        judged.collect()
+    }
+
+    /// Judges all by the deviation of the one that fits best.
+    fn by_one_measure(&self, judged: &mut [Judged]) {
+        let deviation_m = judged.iter().map(|it| it.fit.deviation_m).fold(f64::INFINITY, f64::min);
+        let deviation_m = deviation_m.max(0.5 * LAST.least_scale_m);
+        let judge = || Judge::new(self.shape, self.observed);
+        judged.par_iter_mut().for_each_init(judge, |judge, it| {
+            let posture = &self.openings[it.opening];
+            it.support = judge.support(posture, &it.fit.camera_from_base, 1.5 * deviation_m);
+        });
+    }
+}

@@ -1,0 +1,60 @@
+//! What a frame says of a pose, without any network.
+
+use crate::scene::{SHAPE, Truth, frames};
+use eyebolt::pose::{Judge, Observed, PoseHypothesis, Source, half_turns, with_translation};
+use eyebolt_geometry::Transform;
+use nalgebra::Vector3;
+
+fn observed(truth: &Truth) -> Option<Observed> {
+    let extent_m = SHAPE.end_effector.extent_m();
+    Observed::new(&truth.ideal, &truth.camera, &truth.label, extent_m)
+}
+
+#[test]
+fn the_true_pose_is_supported_best() {
+    let mut seen = 0;
+    for truth in frames("paper-test-p1") {
+        let Some(observed) = observed(&truth) else { continue };
+        seen += 1;
+        let posture = SHAPE.posture(&truth.joints);
+        let mut judge = Judge::new(&SHAPE, &observed);
+        let right = judge.support(&posture, &truth.pose, 0.004);
+        assert!(right.cost < 0.12 && right.explained > 0.9, "{right:?}");
+        let hypothesis =
+            PoseHypothesis { pose: truth.pose, source: Source::Rotation, probability: 1.0 };
+        for wrong in half_turns(&SHAPE, &hypothesis) {
+            let other = judge.support(&posture, &wrong.pose, 0.004);
+            assert!(other.cost > 1.2 * right.cost, "{right:?} {other:?}");
+        }
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            let moved = Transform::from_parts(
+                truth.pose.translation_m() + 0.02 * axis,
+                truth.pose.rotation(),
+            );
+            let other = judge.support(&posture, &moved, 0.004);
+            assert!(other.cost > right.cost + 0.1, "{right:?} {other:?}");
+        }
+    }
+    assert!(seen >= 5, "{seen}");
+}
+
+#[test]
+fn the_translation_follows_from_the_rotation() {
+    for truth in frames("paper-test-p2") {
+        let Some(observed) = observed(&truth) else { continue };
+        let posture = SHAPE.posture(&truth.joints);
+        let mut judge = Judge::new(&SHAPE, &observed);
+        let rotation = truth.pose.rotation();
+        let found = with_translation(&mut judge, &SHAPE, &posture, &observed, rotation);
+        let off = (found.translation_m() - truth.pose.translation_m()).norm();
+        assert!(off < 0.01, "{off}");
+    }
+}
+
+#[test]
+fn too_little_in_view_is_nothing_observed() {
+    let truth = frames("paper-test-p1").remove(0);
+    let extent_m = SHAPE.end_effector.extent_m();
+    let none = vec![0; truth.label.len()];
+    assert!(Observed::new(&truth.depth, &truth.camera, &none, extent_m).is_none());
+}

@@ -1,0 +1,71 @@
+//! The networks that come with the program, on frames that they never saw.
+
+use crate::scene::{SHAPE, frames};
+use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod};
+use eyebolt::segment::Segmenter;
+use nalgebra::Isometry3;
+use std::path::{Path, PathBuf};
+
+fn model() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/shackle")
+}
+
+fn estimator(method: PoseMethod) -> PoseEstimator {
+    PoseEstimator::open(&model(), SHAPE.clone(), method).unwrap()
+}
+
+/// Mean distance of the shape's points from where they are (ADD), metres.
+fn add_m(found: &Isometry3<f64>, truth: &Isometry3<f64>) -> f64 {
+    let points = SHAPE.end_effector.points(&Default::default(), 500);
+    let off = points.iter().map(|point| (found * point - truth * point).norm());
+    off.sum::<f64>() / points.len() as f64
+}
+
+/// By true labels, and by those of the network: whatever is answered is within a centimetre.
+#[test]
+fn what_is_answered_is_right() {
+    let mut fused = estimator(PoseMethod::Fused);
+    let mut segmenter = Segmenter::open(&model()).unwrap();
+    for by_network in [false, true] {
+        let (mut frames_seen, mut answered) = (0, 0);
+        for truth in
+            ["paper-test-p1", "paper-test-p2", "paper-test-p3"].into_iter().flat_map(frames)
+        {
+            let label = match by_network {
+                true => segmenter.segment(&truth.depth, &truth.camera).unwrap().label,
+                false => truth.label.clone(),
+            };
+            frames_seen += 1;
+            let found = fused.estimate(&truth.depth, &truth.camera, &label, None).unwrap();
+            let Some(found) = found.filter(|found| found.refusal.is_none()) else { continue };
+            answered += 1;
+            let add = add_m(found.camera_from_end_effector.isometry(), truth.pose.isometry());
+            assert!(add < 0.01, "{add}");
+            let expected = found.expected_error.unwrap();
+            assert!(expected.translation_mm < 10.0 && expected.rotation_deg < 5.0, "{expected:?}");
+        }
+        assert!(answered * 10 >= frames_seen * 9, "{answered} of {frames_seen}");
+    }
+}
+
+/// The same frame gives the same pose, to the last bit, on one thread and on two.
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let truth = frames("paper-test-p1").remove(1);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut fused = estimator(PoseMethod::Fused);
+            fused.estimate(&truth.depth, &truth.camera, &truth.label, None).unwrap()
+        })
+    };
+    assert_eq!(on(1), on(2));
+    assert!(on(1).is_some());
+}
+
+#[test]
+fn a_method_without_its_network_is_refused() {
+    let folder = std::env::temp_dir();
+    let found = PoseEstimator::open(&folder, SHAPE.clone(), PoseMethod::Kpm);
+    assert!(matches!(found, Err(PoseError::NoNetwork { method: PoseMethod::Kpm })));
+}
