@@ -52,7 +52,7 @@ pub struct Icp {
 }
 
 /// Steps shorter than this are negligible, metres and radians.
-const NEGLIGIBLE: f64 = 2e-6;
+const NEGLIGIBLE: f64 = 2e-5;
 /// By which the scale falls from step to step.
 const FALL: f64 = 0.6;
 /// Points farther away than so many scales have no say that matters.
@@ -79,7 +79,7 @@ pub fn icp(
         steps: 0,
         stop: StopReason::IterationLimit,
     };
-    let mut scale_m = options.first_scale_m;
+    let (mut scale_m, mut settled) = (options.first_scale_m, false);
     let mut sizes = Vec::with_capacity(points.len());
     while found.steps < options.most_steps {
         let sum = gather(arm, posture, points, &found.camera_from_base, scale_m, &mut sizes);
@@ -91,9 +91,12 @@ pub fn icp(
         found.information = sum.information;
         found.camera_from_base = moved(&found.camera_from_base, &step);
         found.deviation_m = 1.4826 * typical;
-        let floor_m = options.least_scale_m.max(2.0 * found.deviation_m).min(scale_m);
-        let settled = floor_m > 0.95 * scale_m;
-        scale_m = floor_m.max(FALL * scale_m);
+        // Once it is that of the noise, the scale stays: it would tremble with each point that comes and goes.
+        if !settled {
+            let floor_m = options.least_scale_m.max(2.0 * found.deviation_m).min(scale_m);
+            settled = floor_m > 0.95 * scale_m;
+            scale_m = floor_m.max(FALL * scale_m);
+        }
         if settled && step.amax() < NEGLIGIBLE {
             found.stop = StopReason::Converged;
             break;

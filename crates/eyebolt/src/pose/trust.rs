@@ -66,8 +66,8 @@ const CORRELATED_PX: f64 = 60.0;
 /// By how much the logarithm of the likelihood has to differ for a pose to be the better one.
 const TELLING: f64 = 3.0;
 /// Least share of the end-effector's pixels on the shape, and most of the shape's that the camera saw through.
-const LEAST_EXPLAINED: f64 = 0.6;
-const MOST_SEEN_THROUGH: f64 = 0.35;
+const LEAST_EXPLAINED: f64 = 0.55;
+const MOST_SEEN_THROUGH: f64 = 0.2;
 /// Shapes, intrinsics and simplified meshes are not better than this, metres and radians.
 const FLOOR_M: f64 = 0.0003;
 const FLOOR_RAD: f64 = 0.001;
