@@ -86,7 +86,8 @@ pub(super) fn check_joints(
 ) -> Result<(), RecordingError> {
     let farthest = |joint: usize| {
         let positions = paired.kept.iter().filter_map(|kept| kept.positions.get(joint));
-        positions.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
+        let told = positions.copied().filter(|position| !position.is_nan());
+        told.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
     };
     let joints = paired.names.iter().enumerate().map(|(joint, name)| (name, farthest(joint)));
     let suspects: Vec<_> = joints.filter(|(_, far)| looks_like_degrees(*far)).collect();

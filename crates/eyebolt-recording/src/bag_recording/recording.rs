@@ -15,11 +15,12 @@ use super::topics::summaries;
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
 use crate::color::ColorImage;
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::frame_source::{FrameSource, check_index};
 use crate::manifest::{CloudFrame, RobotSection};
-use crate::message::types;
+use crate::message::{StaticTransform, types};
 use crate::provenance::{ClockOffset, DroppedFrame, Provenance, TopicSummary};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
@@ -44,7 +45,10 @@ pub struct BagRecording {
     background: Option<PictureTopic>,
     /// Of clouds.
     cloud_frame: Option<CloudFrame>,
+    /// Where it is another than REP 118 says.
+    depth_unit: Option<DepthUnit>,
     copy_facts: CopyFacts,
+    static_transforms: Vec<StaticTransform>,
     provenance: Provenance,
 }
 
@@ -91,7 +95,8 @@ impl BagRecording {
         let names = frame_names(known.frame_names(path)?, depth.frames().len(), &paired);
 
         let range = PictureTopic::kept(depth, &paired.kept);
-        let reader = FrameReader { path, bag: &bag, camera: None };
+        let depth_unit = options.depth_unit.or_else(|| known.depth_unit());
+        let reader = FrameReader { path, bag: &bag, camera: None, unit: depth_unit };
         let cloud_frame = match options.cloud_frame.or_else(|| known.cloud_frame()) {
             None => first_cloud_frame(&reader, &range)?,
             told => told,
@@ -105,6 +110,13 @@ impl BagRecording {
             dropped: paired.dropped,
             clock_offset: offset,
             motion_limit: Some(paired.motion_limit),
+            depth_choice: chosen.depth_choice,
+            untold_joints: joints
+                .untold()
+                .into_iter()
+                .flat_map(|untold| untold.reasons(joints.count))
+                .map(|(name, reason)| (name.to_owned(), reason))
+                .collect(),
             damage: scan.damage.iter().map(ToString::to_string).collect(),
             topics: summaries(&scan, Some(&chosen)),
         };
@@ -117,10 +129,12 @@ impl BagRecording {
             kept: paired.kept,
             mask: topic(chosen.mask).map(PictureTopic::pictures),
             color: topic(chosen.color).map(PictureTopic::pictures),
-            copy_facts: CopyFacts::new(&scan, &chosen, options, known, cloud_frame),
+            copy_facts: CopyFacts::new(&scan, &chosen, options, known, cloud_frame, depth_unit),
+            depth_unit,
             range,
             background,
             cloud_frame,
+            static_transforms: scan.static_transforms,
             provenance,
             bag,
         })
@@ -173,8 +187,13 @@ impl BagRecording {
         }
     }
 
+    fn is_in_rep_118(&self) -> bool {
+        self.depth_unit.is_none_or(|unit| unit == DepthUnit::MILLIMETRES)
+    }
+
     fn reader(&self) -> FrameReader<'_> {
-        FrameReader { path: &self.path, bag: &self.bag, camera: self.camera() }
+        let (path, bag, unit) = (&self.path, &self.bag, self.depth_unit);
+        FrameReader { path, bag, camera: self.camera(), unit }
     }
 }
 
@@ -190,6 +209,10 @@ impl FrameSource for BagRecording {
         let turned = self.cloud_frame == Some(CloudFrame::Body);
         let of_frames = self.range.frame_id.as_deref().filter(|_| !turned);
         of_frames.or(in_info)
+    }
+
+    fn static_transforms(&self) -> &[StaticTransform] {
+        &self.static_transforms
     }
 
     fn robot(&self) -> &RobotSection {
@@ -231,7 +254,9 @@ impl FrameSource for BagRecording {
     fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
         check_index(self, index)?;
         let kept = self.kept.get(index).expect("as many positions as names");
-        Ok(self.joint_names.iter().cloned().zip(kept.positions.iter().copied()).collect())
+        let told = self.joint_names.iter().zip(kept.positions.iter().copied());
+        let told = told.filter(|(_, position)| !position.is_nan());
+        Ok(told.map(|(name, position)| (name.clone(), position)).collect())
     }
 
     /// Reads the colour picture of frame `index`; `None` if there is none of that moment.
@@ -275,11 +300,16 @@ impl FrameSource for BagRecording {
     }
 
     fn in_millimetres(&self) -> bool {
-        self.range.in_millimetres
+        self.range.in_millimetres && self.is_in_rep_118()
+    }
+
+    fn integer_unit_m(&self) -> Option<f64> {
+        let unit = self.depth_unit.unwrap_or(DepthUnit::MILLIMETRES);
+        self.range.in_millimetres.then(|| unit.metres())
     }
 
     fn backgrounds_in_millimetres(&self) -> bool {
-        self.background.as_ref().is_some_and(|topic| topic.in_millimetres)
+        self.background.as_ref().is_some_and(|topic| topic.in_millimetres) && self.is_in_rep_118()
     }
 
     fn provenance(&self) -> &Provenance {

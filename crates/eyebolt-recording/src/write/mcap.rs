@@ -2,6 +2,7 @@
 
 use super::definitions::definition;
 use super::error::WriteError;
+use super::recording_writer::TF_STATIC;
 use crate::message::{StaticTransform, types, write_transforms};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, McapError, WriteOptions};
@@ -112,7 +113,7 @@ pub fn write_static_transforms(
 ) -> Result<(), WriteError> {
     let mut writer = McapWriter::new(output)?;
     let data = write_transforms(transforms, stamp_ns);
-    writer.write("/tf_static", types::TRANSFORMS, stamp_ns, &data)?;
+    writer.write(TF_STATIC, types::TRANSFORMS, stamp_ns, &data)?;
     writer.finish()
 }
 
