@@ -7,6 +7,7 @@
 mod forms;
 mod lens;
 mod raw;
+mod refusal;
 mod window;
 
 use crate::error::RecordingError;
@@ -15,10 +16,9 @@ use crate::message::{CameraInfoMessage, Header};
 use eyebolt_geometry::{Distortion, PinholeCamera};
 use lens::distortion;
 use raw::Raw;
+use refusal::{FIELD, REMEDY, invalid};
 use std::path::Path;
 use window::Window;
-
-const FIELD: &str = "camera info";
 
 /// Intrinsics of a camera and the name of its frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,12 +120,6 @@ pub(crate) fn camera_info_message<'a>(
             _ => [0.0; 12],
         },
     }
-}
-
-const REMEDY: &str = "Store what `ros2 topic echo --once` prints of the camera_info topic";
-
-fn invalid(path: &Path, field: &str, problem: impl Into<String>, remedy: &str) -> RecordingError {
-    RecordingError::invalid(path, field, problem, remedy)
 }
 
 fn camera(

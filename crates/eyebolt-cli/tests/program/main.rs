@@ -21,3 +21,4 @@ mod simulate;
 mod simulate_flags;
 mod study;
 mod train;
+mod words;

@@ -7,6 +7,7 @@ mod recommended;
 
 pub(super) use kinds::{is_rectified, size};
 
+use super::frames::between;
 use super::options::BagOptions;
 use super::scan::{Scan, TopicScan};
 use crate::error::RecordingError;
@@ -14,7 +15,10 @@ use crate::message::types;
 use crate::provenance::DepthChoice;
 use candidates::{By, Candidates, Wanted};
 use eyebolt_robot::Input;
-use kinds::{encoding, is_color, is_compressed_color, is_description, is_joints, is_mask};
+use kinds::{
+    encoding, is_cloud, is_color, is_compressed_color, is_description, is_intrinsics, is_joints,
+    is_mask, siblings,
+};
 use std::path::Path;
 
 /// Numbers of topics in a scan.
@@ -25,6 +29,8 @@ pub(super) struct Chosen {
     pub(super) joints: usize,
     pub(super) description: Option<usize>,
     pub(super) color: Option<usize>,
+    /// Intrinsics of the colour, where it is of another camera than the depth.
+    pub(super) color_info: Option<usize>,
     pub(super) mask: Option<usize>,
     pub(super) background: Option<usize>,
     /// Why `range` was taken, which nobody named, where several could be meant.
@@ -45,6 +51,8 @@ const MASKS: Kind = ("masks of the arm (sensor_msgs/Image)", &[types::IMAGE]);
 
 /// What pictures for people are to a recording.
 pub(super) const COLOR: &str = "color";
+/// The intrinsics of these, where they are of another camera.
+pub(super) const COLOR_INFO: &str = "color camera";
 
 impl Chosen {
     /// The topics that `options` name, else the only ones that can be meant; `known_background` is
@@ -77,13 +85,19 @@ impl Chosen {
         // What shows the same as the depth, pixel by pixel.
         let beside =
             |topic: &TopicScan| size(topic) == depth_size && topic.frame_id == depth.frame_id;
+        // Of another camera whose place beside this one is known: its intrinsics.
+        let other = |topic: &TopicScan| other_camera(scan, depth, topic);
         let picture = |topic: &TopicScan| encoding(topic).is_some();
         let color = match &options.color_topic {
             None => {
                 let fits = |topic: &TopicScan| is_color(topic) && beside(topic);
                 // The same pictures are often recorded compressed as well.
-                let raw = candidates.only(&|topic| fits(topic) && picture(topic));
-                raw.or_else(|| candidates.only(&fits))
+                let only = |fits: &dyn Fn(&TopicScan) -> bool| {
+                    let raw = candidates.only(&|topic| fits(topic) && picture(topic));
+                    raw.or_else(|| candidates.only(fits))
+                };
+                let elsewhere = |topic: &TopicScan| is_color(topic) && other(topic).is_some();
+                only(&fits).or_else(|| only(&elsewhere))
             }
             name => {
                 let color = |topic: &TopicScan| picture(topic) || is_compressed_color(topic);
@@ -97,15 +111,26 @@ impl Chosen {
         };
         let description = wanted(Input::DESCRIPTION_TOPIC, DESCRIPTION, &options.description_topic);
         let description = candidates.one(description, &is_description)?;
+        let color_info = color.and_then(|number| other(scan.topic(number)));
+        let named_color = color.filter(|_| options.color_topic.is_some() && color_info.is_none());
         let by_name = [
-            (Input::COLOR_TOPIC, color.filter(|_| options.color_topic.is_some())),
+            (Input::COLOR_TOPIC, named_color),
             (Input::BACKGROUND_TOPIC, background.filter(|_| options.background_topic.is_some())),
         ];
         for (input, number) in by_name {
             check_size(&candidates, input, number, depth_size)?;
         }
-        let chosen =
-            Self { range, camera_info, joints, description, color, mask, background, depth_choice };
+        let chosen = Self {
+            range,
+            camera_info,
+            joints,
+            description,
+            color,
+            color_info,
+            mask,
+            background,
+            depth_choice,
+        };
         for (number, role) in chosen.roles() {
             tracing::debug!(role, topic = scan.topic(number).name, "topic chosen");
         }
@@ -114,13 +139,15 @@ impl Chosen {
 
     /// The topics, with what each is to the recording.
     pub(super) fn roles(&self) -> impl Iterator<Item = (usize, &'static str)> + use<> {
-        let Self { range, camera_info, joints, description, color, mask, background, .. } = *self;
+        let Self { range, camera_info, joints, description, color, color_info, .. } = *self;
+        let Self { mask, background, .. } = *self;
         let roles = [
             (Some(range), "depth"),
             (Some(joints), "joints"),
             (camera_info, "intrinsics"),
             (description, "robot"),
             (color, COLOR),
+            (color_info, COLOR_INFO),
             (mask, "mask"),
             (background, "background"),
         ];
@@ -131,6 +158,19 @@ impl Chosen {
     pub(super) fn role(&self, number: usize) -> Option<&'static str> {
         self.roles().find(|(chosen, _)| *chosen == number).map(|(_, role)| role)
     }
+}
+
+/// The topic of the intrinsics of `color`, if its pictures are of another camera than `depth` and
+/// `/tf_static` connects the two.
+fn other_camera(scan: &Scan, depth: &TopicScan, color: &TopicScan) -> Option<usize> {
+    let (near, far) = (depth.frame_id.as_deref()?, color.frame_id.as_deref()?);
+    if near == far || is_cloud(depth) {
+        return None;
+    }
+    between(&scan.static_transforms, far, near)?;
+    let name = color.name.strip_suffix("/compressed").unwrap_or(&color.name);
+    let beside = siblings(name);
+    scan.topics.iter().position(|topic| is_intrinsics(topic) && beside.contains(&topic.name))
 }
 
 /// Says that nothing was recorded at all.
@@ -157,7 +197,13 @@ fn check_size(
         None => Ok(()),
         Some((topic, (width, height), (w, h))) => {
             let problem = format!("{} is {width} x {height}, the depth {w} x {h}", topic.name);
-            let remedy = "Give a topic whose pixels are those of the depth";
+            let remedy = match input {
+                Input::COLOR_TOPIC => {
+                    "Give a topic whose pixels are those of the depth, or record the camera_info of \
+                     this one and /tf_static too"
+                }
+                _ => "Give a topic whose pixels are those of the depth",
+            };
             Err(candidates.invalid(By::Input(input), problem, remedy))
         }
     }

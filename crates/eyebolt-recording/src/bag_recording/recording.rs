@@ -4,6 +4,7 @@ use super::camera::read_camera;
 use super::check::{check_background, check_joints, check_topics};
 use super::choose::Chosen;
 use super::clock::clock_offset;
+use super::color_view::ColorView;
 use super::copy_source::{CopyFacts, CopySource};
 use super::frame_reader::FrameReader;
 use super::known::Known;
@@ -42,6 +43,8 @@ pub struct BagRecording {
     kept: Vec<Kept>,
     mask: Option<PictureTopic>,
     color: Option<PictureTopic>,
+    /// Where the colour is of another camera.
+    color_view: Option<ColorView>,
     background: Option<PictureTopic>,
     /// Of clouds.
     cloud_frame: Option<CloudFrame>,
@@ -94,6 +97,7 @@ impl BagRecording {
         check_joints(path, joints, &paired)?;
         let names = frame_names(known.frame_names(path)?, depth.frames().len(), &paired);
 
+        let color_view = ColorView::read(path, &bag, &scan, &chosen)?;
         let range = PictureTopic::kept(depth, &paired.kept);
         let depth_unit = options.depth_unit.or_else(|| known.depth_unit());
         let reader = FrameReader { path, bag: &bag, camera: None, unit: depth_unit };
@@ -129,6 +133,7 @@ impl BagRecording {
             kept: paired.kept,
             mask: topic(chosen.mask).map(PictureTopic::pictures),
             color: topic(chosen.color).map(PictureTopic::pictures),
+            color_view,
             copy_facts: CopyFacts::new(&scan, &chosen, options, known, cloud_frame, depth_unit),
             depth_unit,
             range,
@@ -267,8 +272,16 @@ impl FrameSource for BagRecording {
     fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         check_index(self, index)?;
         let entry = self.range.entries.get(index).expect("as many pictures as names");
-        let picture = picture_of(self.color.as_ref(), entry);
-        picture.map_or(Ok(None), |(topic, entry)| self.reader().color(topic, entry))
+        let Some((topic, picture)) = picture_of(self.color.as_ref(), entry) else {
+            return Ok(None);
+        };
+        let (Some(view), Some(camera)) = (&self.color_view, self.camera()) else {
+            return self.reader().color(topic, picture);
+        };
+        let reader = FrameReader { camera: Some(&view.camera), ..self.reader() };
+        let Some(color) = reader.color(topic, picture)? else { return Ok(None) };
+        let depth = self.reader().depth_image(&self.range, entry)?;
+        Ok(Some(view.seen_by(camera, &depth, &color)))
     }
 
     fn background_count(&self) -> usize {

@@ -4,6 +4,7 @@ mod line;
 mod second_publisher;
 
 use line::{Line, Piece};
+use second_publisher::of_one_publisher;
 
 /// Positions that one publisher told, as a broken line through some of its samples.
 ///
@@ -137,8 +138,9 @@ impl Track {
     /// Ends the line, of which no more samples come.
     pub(super) fn finish(&mut self) {
         self.end();
-        if let Some(one) = self.of_one_publisher() {
-            *self = one;
+        if let Some((line, second)) = of_one_publisher(&self.line, STILL) {
+            (self.line, self.second) = (line, second);
+            self.count = self.count.saturating_sub(second);
         }
     }
 

@@ -3,7 +3,7 @@
 //! JSON is read as the YAML that it is. What could be meant in two ways is refused.
 
 use super::raw::{Raw, RawModel, RawNumbers};
-use super::{FIELD, invalid};
+use super::refusal::{FIELD, invalid};
 use crate::error::RecordingError;
 use std::path::Path;
 

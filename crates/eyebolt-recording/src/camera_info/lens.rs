@@ -1,7 +1,7 @@
 //! Distortion, by the names that drivers and calibrations give to lens models.
 
-use super::invalid;
 use super::raw::Raw;
+use super::refusal::invalid;
 use crate::error::RecordingError;
 use eyebolt_geometry::Distortion;
 use std::path::Path;

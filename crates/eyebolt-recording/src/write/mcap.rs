@@ -1,8 +1,7 @@
 //! MCAP with ROS 2 messages, as `ros2 bag record -s mcap` writes it.
 
-use super::definitions::definition;
+use super::definitions::{TF_STATIC, definition};
 use super::error::WriteError;
-use super::recording_writer::TF_STATIC;
 use crate::message::{StaticTransform, types, write_transforms};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, McapError, WriteOptions};

@@ -1,5 +1,6 @@
 //! A recording as MCAP, message by message: the one place that knows the topics of ours.
 
+use super::definitions::TF_STATIC;
 use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
@@ -21,7 +22,6 @@ const MASK: &str = "/camera/depth/mask";
 const COLOR: &str = "/camera/color/image_raw";
 const JOINTS: &str = "/joint_states";
 pub(super) const DESCRIPTION: &str = "/robot_description";
-pub(super) const TF_STATIC: &str = "/tf_static";
 
 /// Stamps are of 32 bits of seconds, and none are negative in files.
 const LAST_STAMP_NS: i64 = (i32::MAX as i64) * 1_000_000_000;

@@ -271,3 +271,42 @@ fn what_is_no_depth_is_not_taken_for_it() {
     }
     assert_eq!(bag.open().role("depth").as_deref(), Some(DEPTH_TOPIC));
 }
+
+/// The pictures of a colour camera 0.16 m beside the depth camera, twice as large.
+#[test]
+fn colours_of_another_camera_are_seen_from_the_depths() {
+    let mut bag = Bag::sample();
+    for message in bag.on(DEPTH_TOPIC) {
+        // In all pixels two metres: the baseline is 0.8 pixels of colour.
+        message.data = writer::depth(message.log_time_ns, FRAME, SIZE, &[2.0; PIXELS]);
+    }
+    let size = (2 * SIZE.0, 2 * SIZE.1);
+    let rgb: Vec<u8> = (0..48).flat_map(|i| [i % 8, i / 8, 200]).collect();
+    let stamp = START_NS + 5 * MS;
+    let picture = writer::image(stamp, "color_optical", "rgb8", size, &rgb);
+    bag.add("/camera/color/image_raw", IMAGE, stamp, picture);
+    let mut without_tree = bag.clone();
+    // Its principal point is at (4, 3), that of the depth at (2, 1.5).
+    let info = writer::camera_info(stamp, "color_optical", size, 10.0);
+    bag.add("/camera/color/camera_info", "sensor_msgs/CameraInfo", stamp, info);
+    for (child, x) in [(FRAME, 0.0), ("color_optical", -0.16)] {
+        let cdr = writer::Cdr::new().count(1).i32(1).u32(2).text("camera_link").text(child);
+        let data = cdr.f64s(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).done();
+        bag.add("/tf_static", "tf2_msgs/TFMessage", START_NS, data);
+    }
+    let read = bag.open();
+    assert_eq!(read.role("color").as_deref(), Some("/camera/color/image_raw"));
+    assert_eq!(read.role("color camera").as_deref(), Some("/camera/color/camera_info"));
+    let color = read.read_color(0).unwrap().unwrap();
+    assert_eq!((color.width, color.height), SIZE);
+    // Pixel (u, v) of depth is at 2 u + 0.8 and 2 v there.
+    for (index, pixel) in color.rgb.iter().enumerate() {
+        let (u, v) = (index as f64 % 4.0, (index / 4) as f64);
+        let expected = [(2.0 * u + 0.8).round() as u8, (2.0 * v) as u8, 200];
+        assert_eq!(*pixel, expected, "pixel {index}");
+    }
+    // Without the tree, nobody knows where the colour camera is.
+    assert!(without_tree.open().read_color(0).unwrap().is_none());
+    without_tree.options.color_topic = Some("/camera/color/image_raw".to_owned());
+    without_tree.assert_says(&["`color_topic`", "8 x 6, the depth 4 x 3", "/tf_static"]);
+}

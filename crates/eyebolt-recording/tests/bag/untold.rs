@@ -2,7 +2,7 @@
 
 use super::sample::{Bag, INFO_TOPIC, JOINT_STATE, MS, START_NS, position};
 use super::writer::{Cdr, joint_state};
-use eyebolt_recording::FrameSource;
+use eyebolt_recording::{BagOptions, Folder, FrameSource, Recording, WriteRobot, write_folder};
 
 const TOPIC: &str = "/joint_states";
 
@@ -90,6 +90,25 @@ fn a_short_list_of_positions_is_that_of_the_first_names() {
     assert_arm_as_in_sample(&bag);
     let said = "the list of positions ends before lift in all 600 messages";
     assert!(bag.open().problems(TOPIC)[0].starts_with(said));
+}
+
+#[test]
+fn a_folder_has_the_frames_that_tell_what_most_frames_tell() {
+    // `lift` is told in the second half alone, and `spare` hardly ever.
+    let bag = with_lift(|i| {
+        let spare = if i < 3 { 0.1 } else { f64::NAN };
+        vec![("lift", if i < 150 { f64::NAN } else { 0.3 }), ("spare", spare)]
+    });
+    let (folder, path) = bag.write();
+    let recording = Recording::open(&path, &BagOptions::default()).unwrap();
+    let files = folder.path().join("files");
+    std::fs::create_dir(&files).unwrap();
+    write_folder(&recording, &WriteRobot::default(), &files, &()).unwrap();
+    let written = Folder::open(&files).unwrap();
+    let known = recording.frame_names().len();
+    assert!(written.frame_names().len() < known && 2 * written.frame_names().len() > known);
+    let joints = written.read_joints(0).unwrap();
+    assert_eq!((joints.get("lift"), joints.get("spare")), (Some(0.3), None));
 }
 
 #[test]

@@ -33,7 +33,7 @@ impl Plan<'_> {
     ) -> Result<(), SimulateError> {
         let scenario = &self.scenario;
         let arm = scenario.arm;
-        let static_transforms = static_transforms(arm.robot());
+        let static_transforms = static_transforms(arm.robot(), FRAME_ID);
         let info = RecordingInfo {
             camera: &self.stated_camera,
             camera_frame_id: FRAME_ID,

@@ -1,6 +1,5 @@
 //! What never moves: the frames of the camera's driver, and the fixed joints of the robot.
 
-use super::record::FRAME_ID;
 use eyebolt_geometry::optical_from_body;
 use eyebolt_recording::StaticTransform;
 use eyebolt_robot::Robot;
@@ -11,8 +10,8 @@ const DEPTH: &str = "camera_depth_frame";
 /// From the mount of the camera to its depth sensor, metres: most have another sensor beside it.
 const MOUNT_TO_DEPTH_M: [f64; 3] = [0.0, 0.0175, 0.0125];
 
-/// `/tf_static` as a camera's driver and `robot_state_publisher` tell it.
-pub(super) fn static_transforms(robot: &Robot) -> Vec<StaticTransform> {
+/// `/tf_static` as the driver of a camera with the frame `optical` and `robot_state_publisher` tell it.
+pub(super) fn static_transforms(robot: &Robot, optical: &str) -> Vec<StaticTransform> {
     let body_from_optical = optical_from_body().inverse();
     let [x, y, z, w] = body_from_optical.coords.into();
     let edge = |parent: &str, child: &str, translation_m, rotation_xyzw| StaticTransform {
@@ -23,7 +22,7 @@ pub(super) fn static_transforms(robot: &Robot) -> Vec<StaticTransform> {
     };
     let camera = [
         edge(LINK, DEPTH, MOUNT_TO_DEPTH_M, [0.0, 0.0, 0.0, 1.0]),
-        edge(DEPTH, FRAME_ID, [0.0; 3], [x, y, z, w]),
+        edge(DEPTH, optical, [0.0; 3], [x, y, z, w]),
     ];
     let fixed = robot.joints.iter().filter(|joint| !joint.moves()).filter_map(|joint| {
         let (parent, child) = (robot.links.get(joint.parent)?, robot.links.get(joint.child)?);

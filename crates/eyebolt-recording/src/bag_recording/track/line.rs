@@ -19,6 +19,11 @@ impl Line {
         Self { joints, stamps_ns: Vec::new(), positions: Vec::new(), gaps_ns: Vec::new() }
     }
 
+    /// Positions at one time.
+    pub(super) fn joints(&self) -> usize {
+        self.joints
+    }
+
     /// Goes on to a later stamp.
     pub(super) fn push(&mut self, stamp_ns: i64, positions: &[f64], gap_ns: i64) {
         self.stamps_ns.push(stamp_ns);

@@ -3,7 +3,7 @@
 //! `joint_state_publisher` and its like tell zeros, or the middles of the limits, of joints that a
 //! driver tells as well. Between two states of the driver stands one that is far from both.
 
-use super::{STILL, Track};
+use super::line::Line;
 use std::collections::BTreeMap;
 
 /// Visits of the line to a place.
@@ -37,34 +37,30 @@ struct Run<'a> {
     jumps: Option<[&'a [f64]; 2]>,
 }
 
-impl Track {
-    /// The track without the publisher that always tells the same, if there is one among others.
-    ///
-    /// Of two that fit, as where the arm rests in one place only, the one that goes on for longer.
-    pub(super) fn of_one_publisher(&self) -> Option<Self> {
-        let turns: Vec<_> = self.line.iter().collect();
-        let runs = runs(&turns);
-        let constant = constant_publisher(&runs)?;
-        let (tolerance, thinned) = (self.tolerance, self.thinned);
-        let mut rest = Self { tolerance, thinned, ..Self::new(self.names.clone()) };
-        let mut left_out = false;
-        for run in &runs {
-            if run.jumps.is_some() && bits(run.there).eq(constant.iter().copied()) {
-                rest.second += run.turns.len() as u64;
-                left_out = true;
-                continue;
-            }
-            for (stamp_ns, positions, gap_ns) in turns.get(run.turns.clone()).unwrap_or_default() {
-                let before_ns = rest.line.last_ns().unwrap_or(*stamp_ns);
-                let across_ns = stamp_ns.saturating_sub(before_ns);
-                rest.turn(*stamp_ns, positions, if left_out { across_ns } else { *gap_ns });
-                left_out = false;
-            }
+/// `line` without the publisher that always tells the same, if there is one among others, and how many
+/// turns that were. Joints that are nearer to each other than `still` have not moved.
+///
+/// Of two that fit, as where the arm rests in one place only, the one that goes on for longer.
+pub(super) fn of_one_publisher(line: &Line, still: f64) -> Option<(Line, u64)> {
+    let turns: Vec<_> = line.iter().collect();
+    let runs = runs(&turns);
+    let constant = constant_publisher(&runs, still)?;
+    let mut rest = Line::new(line.joints());
+    let (mut second, mut left_out) = (0, false);
+    for run in &runs {
+        if run.jumps.is_some() && bits(run.there).eq(constant.iter().copied()) {
+            second += run.turns.len() as u64;
+            left_out = true;
+            continue;
         }
-        rest.count = self.count.saturating_sub(rest.second);
-        (rest.backward, rest.first_backward_ns) = (self.backward, self.first_backward_ns);
-        Some(rest)
+        for (stamp_ns, positions, gap_ns) in turns.get(run.turns.clone()).unwrap_or_default() {
+            let before_ns = rest.last_ns().unwrap_or(*stamp_ns);
+            let across_ns = stamp_ns.saturating_sub(before_ns);
+            rest.push(*stamp_ns, positions, if left_out { across_ns } else { *gap_ns });
+            left_out = false;
+        }
     }
+    Some((rest, second))
 }
 
 /// A turn of a line: stamp, positions, and the longest time without a sample on the way there.
@@ -91,11 +87,12 @@ fn runs<'a>(turns: &[Turn<'a>]) -> Vec<Run<'a>> {
 }
 
 /// What the second publisher tells.
-fn constant_publisher(runs: &[Run<'_>]) -> Option<Vec<u64>> {
+fn constant_publisher(runs: &[Run<'_>], still: f64) -> Option<Vec<u64>> {
     let mut known: BTreeMap<Vec<u64>, Excursions> = BTreeMap::new();
     for run in runs {
         let key: Vec<u64> = bits(run.there).collect();
-        if run.jumps.is_some_and(|[before, after]| is_excursion(before, run.there, after)) {
+        if run.jumps.is_some_and(|[before, after]| is_excursion([before, run.there, after], still))
+        {
             known.entry(key).or_insert_with(|| Excursions::from(run.first_ns)).back(run.first_ns);
         } else if let Some(excursions) = known.get_mut(&key) {
             excursions.gone_on += 1;
@@ -125,9 +122,9 @@ impl Excursions {
 }
 
 /// Whether the line goes from `before` far away and back.
-fn is_excursion(before: &[f64], there: &[f64], after: &[f64]) -> bool {
+fn is_excursion([before, there, after]: [&[f64]; 3], still: f64) -> bool {
     let away = distance(before, there).min(distance(after, there));
-    away > STILL && distance(before, after) < NEARER * away
+    away > still && distance(before, after) < NEARER * away
 }
 
 /// By which positions that were told again are known.
