@@ -164,18 +164,18 @@ fn overlay_path(folder: &Path, frame: &str) -> PathBuf {
 
 /// The page goes where nothing else of this run does.
 fn check_report(report: &Path, destination: &Destination, force: bool) -> Result<()> {
+    if report.is_dir() {
+        bail!("{}: --report: this is a folder. Name a file in it", report.display());
+    }
+    if destination.is(report) {
+        bail!("{}: --report: the calibration goes there. Name another file", report.display());
+    }
     let ending = report.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if !["html", "htm"].contains(&ending.to_ascii_lowercase().as_str()) {
         bail!(
             "{}: --report: a page for browsers. Name a file that ends in .html",
             report.display()
         );
-    }
-    if report.is_dir() {
-        bail!("{}: --report: this is a folder. Name a file in it", report.display());
-    }
-    if destination.is(report) {
-        bail!("{}: --report: the calibration goes there. Name another file", report.display());
     }
     output::refuse_existing(report, force)
 }

@@ -6,7 +6,7 @@ use crate::names;
 use crate::output::{self, STDOUT};
 use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use eyebolt::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
+use eyebolt::export::{Format, Note, Placement, SavedCalibration, StaticTree, Wanted};
 use std::path::{Path, PathBuf};
 
 /// Which transform is exported, for people who know tf.
@@ -104,9 +104,6 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         }
         None => Placement::of_recording(&calibration, &wanted)?,
     };
-    for note in &placement.notes {
-        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
-    }
     let stem = to_file.and_then(|path| path.file_stem());
     let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());
     let bytes = arguments.format.write(&placement, &name);
@@ -117,6 +114,12 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             let Placement { parent, child, .. } = &placement;
             output::say(&format!("pose of {child} in {parent}, written to {}", path.display()));
         }
+    }
+    // A second parent is a matter of who publishes it.
+    let published = arguments.format.is_published();
+    let of_use = |note: &&Note| published || !matches!(note, Note::TreeUnknown { .. });
+    for note in placement.notes.iter().filter(of_use) {
+        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
     }
     Ok(Ending::Done)
 }

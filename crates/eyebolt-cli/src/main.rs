@@ -55,7 +55,8 @@ enum Command {
     /// Write a recording.toml from what lies in a folder, for you to check
     Init(init::Arguments),
     /// Print the command that records what a calibration needs
-    RecordCommand(record_command::Arguments),
+    #[command(name = "record-command")]
+    ToRecord(record_command::Arguments),
     /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
     Convert(convert::Arguments),
     /// Record an arm and a depth camera that are not there, to try everything without a robot
@@ -97,7 +98,7 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
-        Command::RecordCommand(arguments) => record_command::run(&arguments),
+        Command::ToRecord(arguments) => record_command::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),

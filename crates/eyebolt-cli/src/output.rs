@@ -67,14 +67,6 @@ impl Destination {
                 path.display()
             );
         };
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        if !path.is_dir() && !ending.eq_ignore_ascii_case("json") {
-            bail!(
-                "{}: --output: the calibration is JSON. Name a file that ends in .json; `eyebolt \
-                 export` writes other forms of it",
-                path.display()
-            );
-        }
         let mut name = stem.to_owned();
         name.push(".rejected.json");
         let destination =
@@ -84,6 +76,14 @@ impl Destination {
                 bail!("{}: --output: this is a folder. Name a file in it", file.display());
             }
             refuse_existing(file, force)?;
+        }
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if !ending.eq_ignore_ascii_case("json") {
+            bail!(
+                "{}: --output: the calibration is JSON. Name a file that ends in .json; `eyebolt \
+                 export` writes other forms of it",
+                path.display()
+            );
         }
         let folder = folder_of(path);
         if !folder.is_dir() {

@@ -32,7 +32,7 @@ pub fn text(
         let _ = writeln!(text, "  {frames} left out: {}", reason.replace('_', " "));
     }
     if answer.spare_configurations > 0 {
-        let more = counted(answer.spare_configurations, "other configuration");
+        let more = counted(answer.spare_configurations, "more configuration");
         let _ = writeln!(text, "  {more} not needed (--max-configurations)");
     }
     if answer.background == Some("of_another_scene") {

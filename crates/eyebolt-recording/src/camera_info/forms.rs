@@ -48,7 +48,7 @@ pub(super) fn normalise(path: &Path, raw: &mut Raw) -> Result<(), RecordingError
 /// `intrinsics: [fx, fy, cx, cy]`, `resolution: [width, height]` and a model.
 fn kalibr(path: &Path, raw: &mut Raw) -> Result<(), RecordingError> {
     let model = raw.camera_model.as_deref().unwrap_or("pinhole");
-    let Some([fx, fy, cx, cy]) = raw.intrinsics.as_deref().and_then(|list| list.as_array()) else {
+    let Some(&[fx, fy, cx, cy]) = raw.intrinsics.as_deref() else {
         let problem = "these are not fx, fy, cx, cy";
         return Err(invalid(path, "intrinsics", problem, "Calibrate with the model pinhole"));
     };
@@ -56,7 +56,7 @@ fn kalibr(path: &Path, raw: &mut Raw) -> Result<(), RecordingError> {
         let problem = format!("the camera model \"{model}\" is not supported");
         return Err(invalid(path, "camera_model", problem, "Calibrate with the model pinhole"));
     }
-    raw.k = Some(vec![*fx, 0.0, *cx, 0.0, *fy, *cy, 0.0, 0.0, 1.0]);
+    raw.k = Some(vec![fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]);
     let size = raw.resolution.map(|[width, height]| (width, height));
     raw.width = size.map(|(width, _)| width).or(raw.width);
     raw.height = size.map(|(_, height)| height).or(raw.height);
@@ -70,11 +70,11 @@ fn matrix(path: &Path, numbers: RawNumbers) -> Result<Vec<f64>, RecordingError> 
         RawNumbers::Rows(rows) => return Ok(rows.into_iter().flatten().collect()),
         RawNumbers::Flat(flat) => flat,
     };
-    match flat.as_slice() {
-        &[fx, 0.0, 0.0, 0.0, fy, 0.0, cx, cy, 1.0] => {
+    match *flat.as_slice() {
+        [fx, 0.0, 0.0, 0.0, fy, 0.0, cx, cy, 1.0] => {
             Ok(vec![fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0])
         }
-        &[_, 0.0, _, 0.0, _, _, 0.0, 0.0, 1.0] => Ok(flat),
+        [_, 0.0, _, 0.0, _, _, 0.0, 0.0, 1.0] => Ok(flat),
         _ => {
             let problem = "the matrix is neither [fx, 0, 0, 0, fy, 0, cx, cy, 1], column by column, \
                            nor the same row by row";

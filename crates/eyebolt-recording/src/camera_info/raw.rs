@@ -102,7 +102,7 @@ impl Raw {
     /// rest; drivers that do not rectify leave them out or at zero.
     fn projection(&self) -> Option<&[f64; 12]> {
         let matrix = self.projection_matrix.as_ref().map(|matrix| &matrix.data);
-        let p = self.p.as_ref().or(matrix)?.as_slice().as_array::<12>()?;
+        let p: &[f64; 12] = self.p.as_ref().or(matrix)?.as_slice().try_into().ok()?;
         let [fx, _, _, _, _, fy, ..] = *p;
         (fx != 0.0 && fy != 0.0).then_some(p)
     }
