@@ -4,7 +4,7 @@
 //! asserted.
 
 use crate::bag::{Bag, Encoding, Locator};
-use crate::camera_info::CameraInfo;
+use crate::camera_info::{CameraInfo, PictureForm};
 use crate::cloud::read_cloud;
 use crate::color::read_color;
 use crate::depth::read_depth;
@@ -14,7 +14,7 @@ use crate::manifest::{CloudFrame, Manifest};
 use crate::mask::read_mask;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, ImageMessage, JointStateMessage,
-    WireProblem, WireReader, text, transforms,
+    WireProblem, WireReader, color, text, transforms,
 };
 use crate::npy::{Dtype, Npy};
 use crate::png_image::PngImage;
@@ -149,14 +149,20 @@ pub fn messages(bytes: &[u8]) {
         });
         same_again(bytes, &encoding, |reader| {
             let image = CompressedImageMessage::read(reader)?;
-            let _ = image.depth();
+            let _ = (image.depth(), image.size());
+            // Larger ones are refused by their size, before they are decoded.
+            if image.size().is_some_and(|(width, height)| width.saturating_mul(height) < 1 << 20) {
+                let _ = color(image.data);
+            }
             Ok(image.write())
         });
         if let Ok(mut reader) = reader()
             && let Ok(info) = CameraInfoMessage::read(&mut reader)
         {
-            let _ = CameraInfo::from_message(Path::new("bag"), &info, false);
-            let _ = CameraInfo::from_message(Path::new("bag"), &info, true);
+            for (rectified, size) in [(false, None), (true, Some((64, 48)))] {
+                let picture = PictureForm { rectified, size };
+                let _ = CameraInfo::from_message(Path::new("bag"), &info, picture);
+            }
         }
     }
 }

@@ -195,7 +195,11 @@ impl FrameReader<'_> {
             let bytes = self.bag.read(entry.locator)?;
             let read = WireReader::new(&topic.encoding, &bytes)
                 .and_then(|mut reader| CompressedImageMessage::read(&mut reader))
-                .and_then(|message| color(message.data))
+                .and_then(|message| {
+                    // Before it is decoded: a few bytes may claim many pixels.
+                    message.size().map_or(Ok(()), |(width, height)| check(width, height))?;
+                    color(message.data)
+                })
                 .and_then(|color| check(color.width, color.height).map(|()| color));
             return read.map(Some).map_err(|problem| self.unreadable(topic, entry, problem));
         }
