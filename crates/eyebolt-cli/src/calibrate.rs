@@ -3,8 +3,8 @@
 use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
 use crate::names;
-use crate::output::{self, Destination};
-use crate::progress::Bar;
+use crate::output::{self, Destination, STDOUT};
+use crate::progress::{Bar, leaves};
 use crate::summary;
 use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
@@ -22,7 +22,8 @@ use std::path::{Path, PathBuf};
 pub struct Arguments {
     #[command(flatten)]
     recording: RecordingArguments,
-    /// Where to write the calibration; a refused one goes to *.rejected.json beside it
+    /// Where to write the calibration; a refused one goes to *.rejected.json beside it. With -, either
+    /// goes to standard output, and what is said of it to standard error
     #[arg(short, long, default_value = "calibration.json")]
     output: PathBuf,
     #[command(flatten)]
@@ -66,6 +67,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let destination = Destination::new(&arguments.output, arguments.force)?;
+    leaves("nothing was written".to_owned())?;
     let bar = Bar::new();
     let recording = arguments.recording.open()?;
     if let Some(folder) = &arguments.save_overlay {
@@ -101,7 +103,15 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let report = save_report(arguments, &answer, &outcome, &pictures);
     // A picture or a page that could not be written must not cost the calibration.
     let written = arguments.report.as_deref().filter(|_| report.is_ok());
-    output::say(&summary::text(&answer, &path, saved.as_deref().unwrap_or_default(), written));
+    let verdict = &outcome.calibration.verdict;
+    let saved_paths = saved.as_deref().unwrap_or_default();
+    let summary = summary::text(&answer, verdict, &path, saved_paths, written);
+    // Standard output has the calibration, if that was asked for.
+    if path == Path::new(STDOUT) {
+        output::complain(&summary)
+    } else {
+        output::say(&summary)
+    }
     saved.and(report)?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
@@ -112,6 +122,7 @@ pub(crate) fn named(error: Failure, recording: &Path) -> anyhow::Error {
         error,
         Failure::Record(
             RecordError::Kinematics { .. }
+                | RecordError::JointsNotTold { .. }
                 | RecordError::MaskSize { .. }
                 | RecordError::ImageSize { .. }
                 | RecordError::NoFrames
@@ -158,6 +169,13 @@ fn check_report(report: &Path, destination: &Destination, force: bool) -> Result
     }
     if destination.is(report) {
         bail!("{}: --report: the calibration goes there. Name another file", report.display());
+    }
+    let ending = report.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if !["html", "htm"].contains(&ending.to_ascii_lowercase().as_str()) {
+        bail!(
+            "{}: --report: a page for browsers. Name a file that ends in .html",
+            report.display()
+        );
     }
     output::refuse_existing(report, force)
 }

@@ -4,7 +4,8 @@ use crate::ending::Ending;
 use crate::inputs::{CacheArguments, use_threads};
 use crate::names;
 use crate::output::{self, Destination};
-use crate::progress::{Bar, Waiting};
+use crate::progress::{Bar, Waiting, leaves};
+use crate::record_command;
 use crate::simulate::{flags, numbers, record};
 use crate::summary;
 use anyhow::{Context as _, Result, bail};
@@ -74,6 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let plan = plan(scenario, &cache)?;
     drop(waiting);
     let session = folder.join(SESSION);
+    leaves(format!("what was done is in {}", folder.display()))?;
     if let Err(error) = record(&plan, &session, false) {
         // Only if nothing is in it.
         let _ = std::fs::remove_dir(&folder);
@@ -124,7 +126,7 @@ fn calibrate(
     let destination = Destination::new(&folder.join("calibration.json"), false)?;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
     output::say(&format!("2. calibrated from nothing, without masks, in {spent_s:.1} s:\n"));
-    output::say(&summary::text(&answer, &path, &[], None));
+    output::say(&summary::text(&answer, &outcome.calibration.verdict, &path, &[], None));
     let pose = outcome.calibration.camera_from_base;
     let evaluation = pose.map(|pose| Evaluation::of(&pose, truth));
     output::say(&match &evaluation {
@@ -135,7 +137,11 @@ fn calibrate(
         None => "\n3. no pose was found, so there is nothing to compare".to_owned(),
     });
     let report = report(folder, &answer, &outcome, evaluation)?;
-    output::say(&format!("4. the report, to open in a browser -> {}\n\n{NEXT}", report.display()));
+    output::say(&format!(
+        "4. the report, to open in a browser -> {}\n\n{}",
+        report.display(),
+        next()
+    ));
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
 
@@ -164,12 +170,18 @@ fn report(
 /// Name of the recording in the demo's folder.
 const SESSION: &str = "session.mcap";
 
-const NEXT: &str = "\
+/// What to do with an arm of one's own.
+fn next() -> String {
+    format!(
+        "\
 With your own arm: let it rest in six or more configurations that look different to the camera,
-the hand in view, and record depth, camera_info, joint_states and robot_description:
+the hand in view, and record it (`eyebolt record-command` knows other cameras):
 
-  ros2 bag record -s mcap -o my_bag /camera/depth/image_rect_raw /camera/depth/camera_info \\
-      /joint_states /robot_description
+  {}
+
   eyebolt info my_bag                                   # what is in it, what is missing
   eyebolt calibrate my_bag --report report.html         # where the camera is, how far to trust it
-  eyebolt export calibration.json --as ros2-launch      # for tf2, MoveIt, easy_handeye2, URDF...";
+  eyebolt export calibration.json --as ros2-launch      # for tf2, MoveIt, easy_handeye2, URDF...",
+        record_command::usual()
+    )
+}

@@ -3,11 +3,11 @@
 use crate::ending::Ending;
 use crate::inputs::packages;
 use crate::names;
-use crate::output;
+use crate::output::{self, STDOUT};
 use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use eyebolt::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
-use std::path::PathBuf;
+use eyebolt::export::{Format, Note, Placement, SavedCalibration, StaticTree, Wanted};
+use std::path::{Path, PathBuf};
 
 /// Which transform is exported, for people who know tf.
 const FRAMES: &str = "\
@@ -23,9 +23,9 @@ Optical frame, body frame:
 
 A camera whose driver publishes camera_link -> ... -> optical frame on /tf_static:
   A frame of tf has one parent. Published as base -> optical frame, the calibration would give the
-  optical frame a second one, and tf would jump between the two. Store what the driver publishes
-  and give it as --camera-tree; then the pose of the root of the driver's frames is exported, and
-  all the others follow:
+  optical frame a second one, and tf would jump between the two. So where the recording has
+  /tf_static, the pose of the root of the driver's frames is exported, and all the others follow.
+  Of a recording without it, store what the driver publishes and give it as --camera-tree:
 
     timeout -s INT 5 ros2 topic echo --full-length --qos-durability transient_local \\
         /tf_static > tf.yaml
@@ -62,7 +62,7 @@ pub struct Arguments {
     /// Name of the depth optical frame, if the calibration has none or another
     #[arg(long, value_name = "FRAME")]
     optical_frame: Option<String>,
-    /// Static transforms of the camera, the robot or both: a bag with /tf_static, that topic as
+    /// Static transforms of the camera, the robot or both, in place of the recording's: a bag with /tf_static, that topic as
     /// `ros2 topic echo` prints it (YAML or JSON), or a URDF, of which the fixed joints count
     #[arg(long, value_name = "FILE")]
     camera_tree: Option<PathBuf>,
@@ -85,36 +85,41 @@ fn format() -> impl TypedValueParser<Value = Format> {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
-    if let Some(path) = &arguments.output {
+    let to_file = arguments.output.as_deref().filter(|path| *path != Path::new(STDOUT));
+    if let Some(path) = to_file {
         output::refuse_existing(path, arguments.force)?;
     }
     let calibration = SavedCalibration::read(&arguments.calibration)?;
-    let tree = match &arguments.camera_tree {
-        Some(path) => {
-            StaticTree::read(path, &packages(&arguments.package_path), &std::env::temp_dir())?
-        }
-        None => StaticTree::empty(),
-    };
     let wanted = Wanted {
         parent: arguments.parent_frame.as_deref(),
         child: arguments.child_frame.as_deref(),
         optical: arguments.optical_frame.as_deref(),
         even_if_refused: arguments.even_if_refused,
     };
-    let placement = Placement::find(&calibration, &tree, &wanted)?;
-    for note in &placement.notes {
-        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
-    }
-    let stem = arguments.output.as_ref().and_then(|path| path.file_stem());
+    let placement = match &arguments.camera_tree {
+        Some(path) => {
+            let packages = packages(&arguments.package_path);
+            let tree = StaticTree::read(path, &packages, &std::env::temp_dir())?;
+            Placement::find(&calibration, &tree, &wanted)?
+        }
+        None => Placement::of_recording(&calibration, &wanted)?,
+    };
+    let stem = to_file.and_then(|path| path.file_stem());
     let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());
     let bytes = arguments.format.write(&placement, &name);
-    match &arguments.output {
+    match to_file {
         None => output::deliver(&bytes)?,
         Some(path) => {
             output::write_whole(path, &bytes, arguments.force)?;
             let Placement { parent, child, .. } = &placement;
             output::say(&format!("pose of {child} in {parent}, written to {}", path.display()));
         }
+    }
+    // A second parent is a matter of who publishes it.
+    let published = arguments.format.is_published();
+    let of_use = |note: &&Note| published || !matches!(note, Note::TreeUnknown { .. });
+    for note in placement.notes.iter().filter(of_use) {
+        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
     }
     Ok(Ending::Done)
 }

@@ -26,7 +26,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     let waiting = Waiting::new("reading the recording");
-    let recording = match arguments.recording.open() {
+    let recording = match arguments.recording.open_any_depth() {
         Ok(recording) => recording,
         Err(error) => {
             // Which topics there are is what one wants to know now.
@@ -55,6 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         // Instead of the advice to give one.
         info.advice.retain(|line| !line.starts_with(NO_ROBOT));
         info.advice.insert(0, problem);
+        info.ready = false;
     }
     // What is damaged and what to do is said in the libraries' words.
     for line in info.advice.iter_mut().chain(&mut info.damage) {
@@ -63,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     drop(waiting);
     let text = if arguments.json { info.to_json() } else { text(&info) };
     output::say(text.trim_end());
-    Ok(Ending::Done)
+    Ok(if info.ready { Ending::Done } else { Ending::Refused })
 }
 
 fn lacks_mesh(error: &anyhow::Error) -> bool {
@@ -88,9 +89,11 @@ fn text(info: &Info) -> String {
     for damage in info.damage.iter().take(5) {
         let _ = writeln!(text, "\ndamaged: {damage}");
     }
-    let _ = match info.advice.as_slice() {
-        [] => writeln!(text, "\nready to calibrate"),
-        advice => advice.iter().try_for_each(|line| write!(text, "\n- {line}")),
+    let _ = info.advice.iter().try_for_each(|line| write!(text, "\n- {line}"));
+    let _ = match (info.ready, info.advice.is_empty()) {
+        (true, true) => writeln!(text, "\nready to calibrate"),
+        (true, false) => writeln!(text, "\n\nready to calibrate all the same"),
+        (false, _) => writeln!(text, "\n\nnot ready to calibrate"),
     };
     text
 }

@@ -1,7 +1,7 @@
 //! Flags that say what the recording and the robot are, shared by the commands.
 
 use anyhow::{Context, Result, bail};
-use eyebolt_recording::{BagOptions, CloudFrame, Recording, WriteRobot};
+use eyebolt_recording::{BagOptions, CloudFrame, DepthUnit, Recording, WriteRobot};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, PackageRoots, Robot};
 use std::path::{Path, PathBuf};
@@ -44,6 +44,10 @@ pub struct BagArguments {
     /// Depth images of the scene without the robot
     #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
     background_topic: Option<String>,
+    /// What one of the numbers of depth is: m, mm, or its metres, as in 0.0001 or 1/5000 [default: mm
+    /// of integers and m of floats, of a folder what its recording.toml says]
+    #[arg(long, value_name = "UNIT", value_parser = depth_unit)]
+    depth_unit: Option<DepthUnit>,
     /// Frame of the points of a PointCloud2, where name and points do not tell
     #[arg(long, help_heading = BAGS, value_name = "FRAME")]
     cloud_frame: Option<CloudFrameName>,
@@ -70,6 +74,11 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+fn depth_unit(text: &str) -> Result<DepthUnit, String> {
+    let ways = "must be m, mm, or the metres of one, as in 0.0001 or 1/5000";
+    DepthUnit::parse(text).ok_or_else(|| ways.to_owned())
+}
+
 impl BagArguments {
     pub fn options(&self) -> BagOptions {
         BagOptions {
@@ -85,6 +94,8 @@ impl BagArguments {
                 CloudFrameName::Optical => CloudFrame::Optical,
                 CloudFrameName::Body => CloudFrame::Body,
             }),
+            depth_unit: self.depth_unit,
+            any_depth: false,
             max_motion: self.max_motion_deg.map(f64::to_radians),
             partial: self.partial,
             scratch: std::env::temp_dir(),
@@ -95,6 +106,12 @@ impl BagArguments {
 impl RecordingArguments {
     pub fn open(&self) -> Result<Recording> {
         Ok(Recording::open(&self.recording, &self.bag.options())?)
+    }
+
+    /// As [`Self::open`], with one of several topics of depth where none is named.
+    pub fn open_any_depth(&self) -> Result<Recording> {
+        let options = BagOptions { any_depth: true, ..self.bag.options() };
+        Ok(Recording::open(&self.recording, &options)?)
     }
 }
 

@@ -7,6 +7,7 @@ mod ending;
 mod evaluate;
 mod export;
 mod info;
+mod init;
 mod inputs;
 mod label;
 mod logging;
@@ -14,6 +15,7 @@ mod names;
 mod output;
 mod pose;
 mod progress;
+mod record_command;
 mod segment;
 mod shell;
 mod simulate;
@@ -27,9 +29,10 @@ use std::process::ExitCode;
 
 /// Calibrates a depth camera against a robot arm: no markers, no initial guess, nobody labelling.
 ///
-/// Exit status: 0 trusted, 1 something could not be read or written, 2 wrong usage, 3 refused.
+/// Exit status: 0 trusted (of info: ready), 1 something could not be read or written, 2 wrong usage,
+/// 3 refused (of info: not ready).
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100)]
+#[command(name = "eyebolt", version, max_term_width = 100)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -50,6 +53,11 @@ enum Command {
     Calibrate(calibrate::Arguments),
     /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
     Info(info::Arguments),
+    /// Write a recording.toml from what lies in a folder, for you to check
+    Init(init::Arguments),
+    /// Print the command that records what a calibration needs
+    #[command(name = "record-command")]
+    ToRecord(record_command::Arguments),
     /// Write a recording as MCAP with ROS 2 messages, or as a folder of files
     Convert(convert::Arguments),
     /// Record an arm and a depth camera that are not there, to try everything without a robot
@@ -94,6 +102,8 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments),
+        Command::ToRecord(arguments) => record_command::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),

@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow, bail};
 use eyebolt_recording::WriteError;
 use replace::{NotReplaced, Rename, replace};
 use std::fs::File;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Says something on standard output. A reader that has gone away is no error.
@@ -29,6 +29,19 @@ pub fn deliver(bytes: &[u8]) -> Result<()> {
     }
 }
 
+/// The name of standard output, where a file is asked for.
+pub const STDOUT: &str = "-";
+
+/// `word` in bold green, or in bold red, where a person reads it on a terminal and wants colours.
+pub fn emphasised(word: &str, good: bool) -> String {
+    let unwanted = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if !std::io::stdout().is_terminal() || unwanted("NO_COLOR") || dumb {
+        return word.to_owned();
+    }
+    format!("\x1b[1;{}m{word}\x1b[0m", if good { 32 } else { 31 })
+}
+
 /// Says something on standard error.
 pub fn complain(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
@@ -45,6 +58,9 @@ pub struct Destination {
 impl Destination {
     /// For `path`, whose rejected sibling is `*.rejected.json`.
     pub fn new(path: &Path, force: bool) -> Result<Self> {
+        if path == Path::new(STDOUT) {
+            return Ok(Self { trusted: path.to_owned(), rejected: path.to_owned(), force });
+        }
         let Some(stem) = path.file_stem() else {
             bail!(
                 "{}: --output: not the name of a file. Give one, such as calibration.json",
@@ -60,6 +76,14 @@ impl Destination {
                 bail!("{}: --output: this is a folder. Name a file in it", file.display());
             }
             refuse_existing(file, force)?;
+        }
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if !ending.eq_ignore_ascii_case("json") {
+            bail!(
+                "{}: --output: the calibration is JSON. Name a file that ends in .json; `eyebolt \
+                 export` writes other forms of it",
+                path.display()
+            );
         }
         let folder = folder_of(path);
         if !folder.is_dir() {
@@ -85,6 +109,10 @@ impl Destination {
     /// Writes a calibration where its verdict belongs; returns where that is.
     pub fn write(&self, trusted: bool, bytes: &[u8]) -> Result<PathBuf> {
         let path = if trusted { &self.trusted } else { &self.rejected };
+        if path == Path::new(STDOUT) {
+            deliver(bytes)?;
+            return Ok(path.clone());
+        }
         write_whole(path, bytes, self.force)?;
         if trusted && self.force && self.rejected.exists() {
             // An earlier refusal beside the answer that replaces it would only confuse.

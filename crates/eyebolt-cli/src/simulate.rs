@@ -12,7 +12,7 @@ use crate::inputs::{CacheArguments, use_threads};
 use crate::output;
 use crate::progress::Waiting;
 use crate::shell::quoted;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use eyebolt::simulate::{Scenario, plan};
 use eyebolt_render::Sensor;
 use flags::{CameraArguments, FaultArguments, RobotArguments};
@@ -65,6 +65,13 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
+    let ending = arguments.output.extension().and_then(|ending| ending.to_str());
+    if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) {
+        bail!(
+            "{}: --output: the recording is MCAP. Name a file that ends in .mcap",
+            arguments.output.display()
+        );
+    }
     output::refuse_existing(&arguments.output, arguments.force)?;
     let robot = arguments.robot.read()?;
     let scenario = Scenario {

@@ -1,14 +1,25 @@
 //! The result for a person to read.
 
+use crate::names;
+use crate::output::{self, STDOUT};
 use eyebolt::answer::{Answer, FrameOutcome, Pose, Size};
+use eyebolt::calibrate::Verdict;
+use eyebolt::report::remedies;
+use eyebolt_recording::counted;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// The summary of `answer`, written to `path`, of which `pictures` and a `report` were made.
-pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&Path>) -> String {
+pub fn text(
+    answer: &Answer,
+    reasons: &Verdict,
+    path: &Path,
+    pictures: &[PathBuf],
+    report: Option<&Path>,
+) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = verdict(&mut text, answer);
+    let _ = verdict(&mut text, answer, reasons);
     let _ = evidence(&mut text, answer);
     for line in answer.configurations.chunk_by(|a, b| a.configuration == b.configuration) {
         let _ = line
@@ -17,11 +28,12 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
             .map_or(Ok(()), |line| writeln!(text, "  {line}"));
     }
     for (reason, count) in &answer.frames_left_out {
-        let _ = writeln!(text, "  {count} frames left out: {}", reason.replace('_', " "));
+        let frames = counted(*count, "frame");
+        let _ = writeln!(text, "  {frames} left out: {}", reason.replace('_', " "));
     }
     if answer.spare_configurations > 0 {
-        let count = answer.spare_configurations;
-        let _ = writeln!(text, "  {count} more configurations not needed (--max-configurations)");
+        let more = counted(answer.spare_configurations, "more configuration");
+        let _ = writeln!(text, "  {more} not needed (--max-configurations)");
     }
     if answer.background == Some("of_another_scene") {
         let _ = writeln!(text, "  frames without the arm show another scene: not used");
@@ -52,7 +64,10 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
              where they put it"
         );
     }
-    let _ = write!(text, "\nwritten to {}", path.display());
+    let _ = match path == Path::new(STDOUT) {
+        true => write!(text, "\nwritten to standard output"),
+        false => write!(text, "\nwritten to {}", path.display()),
+    };
     if let (Some(first), Some(folder)) =
         (pictures.first(), pictures.first().and_then(|p| p.parent()))
     {
@@ -67,15 +82,22 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
     text
 }
 
-fn verdict(text: &mut String, answer: &Answer) -> std::fmt::Result {
-    let (frames, verdict) = (&answer.configurations, answer.verdict.to_uppercase());
+fn verdict(text: &mut String, answer: &Answer, reasons: &Verdict) -> std::fmt::Result {
+    let frames = &answer.configurations;
+    let verdict = output::emphasised(&answer.verdict.to_uppercase(), answer.reasons.is_empty());
     let used = frames.iter().filter(|frame| frame.used).count();
     match frames.len() {
         0 => writeln!(text, "{verdict}")?,
-        count => writeln!(text, "{verdict} ({used} of {count} frames used)")?,
+        count => writeln!(text, "{verdict} ({used} of {} used)", counted(count, "frame"))?,
     }
-    for reason in &answer.reasons {
-        writeln!(text, "  - {reason}")?;
+    if let Verdict::Refused(reasons) = reasons {
+        for reason in reasons {
+            writeln!(text, "  - {}", names::in_flags(&reason.to_string()))?;
+            for remedy in remedies(reason) {
+                // What a report shows below, a terminal does not.
+                writeln!(text, "      {}", names::in_flags(remedy).replace(" below", ""))?;
+            }
+        }
     }
     let trusted = answer.reasons.is_empty();
     let camera = answer.frames.camera.as_deref().unwrap_or("depth optical frame");
@@ -94,7 +116,7 @@ fn write_pose(text: &mut String, pose: &Pose) -> std::fmt::Result {
 }
 
 fn evidence(text: &mut String, answer: &Answer) -> std::fmt::Result {
-    let mut line = |name: &str, size: Option<Size>| match size {
+    let line = |text: &mut String, name: &str, size: Option<Size>| match size {
         Some(size) => writeln!(
             text,
             "  {name:<28} {:>6.1} mm {:>6.2} degrees",
@@ -102,9 +124,12 @@ fn evidence(text: &mut String, answer: &Answer) -> std::fmt::Result {
         ),
         None => Ok(()),
     };
-    line("expected error", answer.expected_error)?;
-    line("worst when one is left out", answer.leave_one_out.as_ref().map(|l| l.worst))?;
-    line("surfaces against outlines", answer.disagreement)?;
+    line(text, "expected error, workspace", answer.expected_error)?;
+    if let Some(mm) = answer.camera_position_error_mm {
+        writeln!(text, "  {:<28} {mm:>6.1} mm", "the camera's own position")?;
+    }
+    line(text, "worst when one is left out", answer.leave_one_out.as_ref().map(|l| l.worst))?;
+    line(text, "surfaces against outlines", answer.disagreement)?;
     if let Some(iou) = answer.silhouette_iou {
         writeln!(text, "  {:<28} {iou:>6.3}", "silhouette overlap (IoU)")?;
     }

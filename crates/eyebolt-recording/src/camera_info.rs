@@ -1,17 +1,24 @@
-//! Camera intrinsics in the YAML files of ROS.
+//! Camera intrinsics in the YAML files of ROS, and in the forms of others.
 //!
 //! Read are a `sensor_msgs/CameraInfo` message of ROS 2 (`k`, `d`) or ROS 1 (`K`, `D`), as
-//! `ros2 topic echo` prints it, and the calibration files of `camera_calibration_parsers`
-//! (`camera_matrix`, `distortion_coefficients`).
+//! `ros2 topic echo` prints it, the calibration files of `camera_calibration_parsers`
+//! (`camera_matrix`, `distortion_coefficients`), and what [`forms`] knows of others.
+
+mod forms;
+mod lens;
+mod raw;
+mod refusal;
+mod window;
 
 use crate::error::RecordingError;
 use crate::file::read_text;
 use crate::message::{CameraInfoMessage, Header};
 use eyebolt_geometry::{Distortion, PinholeCamera};
-use serde::Deserialize;
+use lens::distortion;
+use raw::Raw;
+use refusal::{FIELD, REMEDY, invalid};
 use std::path::Path;
-
-const FIELD: &str = "camera info";
+use window::Window;
 
 /// Intrinsics of a camera and the name of its frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,39 +27,8 @@ pub struct CameraInfo {
     pub camera: PinholeCamera,
     /// Name of the optical frame in ROS, if the file says it.
     pub frame_id: Option<String>,
-}
-
-/// The fields of all forms; those that are of no use here are not named.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Raw {
-    #[serde(alias = "image_width")]
-    width: Option<u32>,
-    #[serde(alias = "image_height")]
-    height: Option<u32>,
-    #[serde(alias = "K")]
-    k: Option<Vec<f64>>,
-    #[serde(alias = "D")]
-    d: Option<Vec<f64>>,
-    #[serde(alias = "P")]
-    p: Option<Vec<f64>>,
-    camera_matrix: Option<RawMatrix>,
-    projection_matrix: Option<RawMatrix>,
-    distortion_coefficients: Option<RawMatrix>,
-    distortion_model: Option<String>,
-    frame_id: Option<String>,
-    header: Option<RawHeader>,
-}
-
-#[derive(Debug, Deserialize)]
-struct RawMatrix {
-    data: Vec<f64>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct RawHeader {
-    frame_id: Option<String>,
+    /// What one of the depth's integers is, metres, if the file says it.
+    pub depth_unit_m: Option<f64>,
 }
 
 impl CameraInfo {
@@ -66,17 +42,17 @@ impl CameraInfo {
         Self::parse(path, &read_text(path, FIELD)?)
     }
 
-    /// As [`CameraInfo::read`]; `rectified` pictures have the intrinsics of `p`.
-    pub(crate) fn read_for(path: &Path, rectified: bool) -> Result<Self, RecordingError> {
-        Self::parse_for(path, &read_text(path, FIELD)?, rectified)
+    /// As [`CameraInfo::read`], of `picture`.
+    pub(crate) fn read_for(path: &Path, picture: PictureForm) -> Result<Self, RecordingError> {
+        Self::parse_for(path, &read_text(path, FIELD)?, picture)
     }
 
     /// As [`CameraInfo::read`], from text; `path` is for messages.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecordingError> {
-        Self::parse_for(path, text, false)
+        Self::parse_for(path, text, PictureForm::default())
     }
 
-    fn parse_for(path: &Path, text: &str, rectified: bool) -> Result<Self, RecordingError> {
+    fn parse_for(path: &Path, text: &str, picture: PictureForm) -> Result<Self, RecordingError> {
         let mut bytes = text.as_bytes();
         let mut raw: Raw = match serde_saphyr::read(&mut bytes).next() {
             Some(Ok(raw)) => raw,
@@ -86,58 +62,34 @@ impl CameraInfo {
             }
             None => return Err(invalid(path, FIELD, "the file is empty", REMEDY)),
         };
-        if rectified {
-            raw.rectify();
-        }
-        let camera = camera(path, &raw)?;
+        forms::normalise(path, &mut raw)?;
+        let camera = camera(path, &mut raw, picture)?;
+        let depth_unit_m = raw.depth_unit_m;
         let in_header = raw.header.and_then(|h| h.frame_id);
         let frame_id = in_header.or(raw.frame_id).filter(|id| !id.is_empty());
-        Ok(Self { camera, frame_id })
+        Ok(Self { camera, frame_id, depth_unit_m })
     }
 }
 
-impl Raw {
-    /// Takes the intrinsics of the rectified picture, which has no distortion left, where they are
-    /// told; drivers that do not rectify leave them out or at zero.
-    fn rectify(&mut self) {
-        let projection = self.projection_matrix.as_ref().map(|matrix| &matrix.data);
-        let p = self.p.as_ref().or(projection).map(Vec::as_slice);
-        if let Some(&[fx, skew, cx, _, k10, fy, cy, _, k20, k21, k22, _]) = p
-            && fx != 0.0
-            && fy != 0.0
-        {
-            self.k = Some(vec![fx, skew, cx, k10, fy, cy, k20, k21, k22]);
-            self.d = None;
-            self.distortion_coefficients = None;
-            self.distortion_model = None;
-        }
-    }
+/// What is known of the pictures that intrinsics are of.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PictureForm {
+    /// Whether they are rectified: then they have the intrinsics of `p`, and no distortion left.
+    pub(crate) rectified: bool,
+    /// Their width and height: they may be binned, or show a part of what the sensor sees.
+    pub(crate) size: Option<(u32, u32)>,
 }
 
 impl CameraInfo {
-    /// From a message; `rectified` pictures have the intrinsics of `p` and no distortion left.
-    ///
-    /// `path` is for messages.
+    /// From a message about `picture`; `path` is for messages.
     pub(crate) fn from_message(
         path: &Path,
         message: &CameraInfoMessage<'_>,
-        rectified: bool,
+        picture: PictureForm,
     ) -> Result<Self, RecordingError> {
-        let mut raw = Raw {
-            width: Some(message.width),
-            height: Some(message.height),
-            k: Some(message.k.to_vec()),
-            d: Some(message.d.clone()),
-            distortion_model: Some(message.distortion_model.to_owned()),
-            ..Raw::default()
-        };
-        raw.p = Some(message.p.to_vec());
-        if rectified {
-            raw.rectify();
-        }
-        let camera = camera(path, &raw)?;
+        let camera = camera(path, &mut Raw::from(message), picture)?;
         let frame_id = Some(message.header.frame_id.to_owned()).filter(|id| !id.is_empty());
-        Ok(Self { camera, frame_id })
+        Ok(Self { camera, frame_id, depth_unit_m: None })
     }
 }
 
@@ -159,6 +111,9 @@ pub(crate) fn camera_info_message<'a>(
         d: camera.distortion().coefficients().into_iter().take(count).collect(),
         k: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
         r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        binning: [0; 2],
+        roi: [0; 4],
+        do_rectify: false,
         // A picture with distortion was not rectified, whatever its topic is called.
         p: match camera.distortion() {
             Distortion::None => [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
@@ -167,22 +122,20 @@ pub(crate) fn camera_info_message<'a>(
     }
 }
 
-const REMEDY: &str = "Store what `ros2 topic echo --once` prints of the camera_info topic";
-
-fn invalid(path: &Path, field: &str, problem: impl Into<String>, remedy: &str) -> RecordingError {
-    RecordingError::invalid(path, field, problem, remedy)
-}
-
-fn camera(path: &Path, raw: &Raw) -> Result<PinholeCamera, RecordingError> {
+fn camera(
+    path: &Path,
+    raw: &mut Raw,
+    picture: PictureForm,
+) -> Result<PinholeCamera, RecordingError> {
+    // Intrinsics of nothing but the rectified picture are of that one.
+    if picture.rectified || raw.has_only_projection() {
+        raw.rectify();
+    }
     let missing = |field| invalid(path, field, "the field is missing", REMEDY);
     let width = raw.width.ok_or_else(|| missing("width"))?;
     let height = raw.height.ok_or_else(|| missing("height"))?;
-    let (field, k) = match (&raw.k, &raw.camera_matrix) {
-        (Some(k), _) => ("k", k),
-        (None, Some(matrix)) => ("camera_matrix.data", &matrix.data),
-        (None, None) => return Err(missing("k")),
-    };
-    let &[fx, skew, cx, k10, fy, cy, k20, k21, k22] = k.as_slice() else {
+    let (field, k) = raw.matrix().ok_or_else(|| missing("k"))?;
+    let &[fx, skew, cx, k10, fy, cy, k20, k21, k22] = k else {
         let problem = format!("found {} numbers, expected the 9 of a 3 x 3 matrix", k.len());
         return Err(invalid(path, field, problem, REMEDY));
     };
@@ -196,39 +149,8 @@ fn camera(path: &Path, raw: &Raw) -> Result<PinholeCamera, RecordingError> {
         return Err(invalid(path, field, problem, "Write it row by row, without skew"));
     }
     let distortion = distortion(path, raw)?;
+    let window = Window::of(raw, (width, height), picture.size);
+    let ((width, height), [fx, fy, cx, cy]) = window.seen((width, height), [fx, fy, cx, cy]);
     PinholeCamera::new(width, height, fx, fy, cx, cy, distortion)
         .map_err(|error| invalid(path, FIELD, error.to_string(), REMEDY))
-}
-
-fn distortion(path: &Path, raw: &Raw) -> Result<Distortion, RecordingError> {
-    let matrix = raw.distortion_coefficients.as_ref();
-    let d = raw.d.as_deref().or(matrix.map(|m| m.data.as_slice())).unwrap_or(&[]);
-    let model = raw.distortion_model.as_deref().unwrap_or_default();
-    // Every model's own number of coefficients; plumb_bob may lack its last, k3.
-    let (least, most) = match model {
-        "plumb_bob" => (4, 5),
-        "rational_polynomial" => (8, 8),
-        // Drivers of rectified pictures leave the model out.
-        "" | "none" => (0, 0),
-        other => {
-            let problem = format!("the lens model \"{other}\" is not supported");
-            let remedy = "Supported are plumb_bob and rational_polynomial: rectify the depth, or \
-                          calibrate the camera with one of these";
-            return Err(invalid(path, "distortion_model", problem, remedy));
-        }
-    };
-    if d.iter().all(|c| *c == 0.0) {
-        return Ok(Distortion::None);
-    }
-    // Files are padded with zeros at will.
-    if d.len() < least || d.iter().skip(most).any(|c| *c != 0.0) {
-        let problem = format!("{} coefficients do not make a lens of model \"{model}\"", d.len());
-        let remedy = "plumb_bob has 5 (k1 k2 p1 p2 k3), rational_polynomial 8 (.. k4 k5 k6)";
-        return Err(invalid(path, "d", problem, remedy));
-    }
-    let c = |i: usize| d.get(i).copied().unwrap_or(0.0);
-    Ok(match most {
-        5 => Distortion::plumb_bob(std::array::from_fn(c)),
-        _ => Distortion::rational_polynomial(std::array::from_fn(c)),
-    })
 }

@@ -8,9 +8,10 @@ mod stored;
 mod text;
 
 use crate::depth::{LEAVE_OUT, scaled};
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::file::read_bytes;
-use crate::manifest::{CloudFrame, Unit};
+use crate::manifest::CloudFrame;
 use crate::unit_check::check_unit;
 use eyebolt_geometry::Cloud;
 use nalgebra::Point3;
@@ -21,7 +22,7 @@ use stored::{FIELD, LARGEST, invalid};
 pub(crate) fn read_cloud(
     path: &Path,
     extension: &str,
-    unit: Unit,
+    unit: DepthUnit,
     frame: CloudFrame,
 ) -> Result<Cloud, RecordingError> {
     let stored = match extension {

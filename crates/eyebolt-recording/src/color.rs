@@ -21,17 +21,25 @@ pub(crate) fn read_color(
     path: &Path,
     range: Option<Expected<'_>>,
 ) -> Result<ColorImage, RecordingError> {
-    let image = PngImage::read(path, "color", range, true)?;
-    let rgb = match image.color {
-        ColorType::Rgb => image.data.as_chunks::<3>().0.to_vec(),
-        ColorType::Rgba => {
-            image.data.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-        }
-        ColorType::GrayscaleAlpha => {
-            image.data.as_chunks::<2>().0.iter().map(|[v, _]| [*v; 3]).collect()
-        }
-        // Palettes have become RGB.
-        ColorType::Grayscale | ColorType::Indexed => image.data.iter().map(|v| [*v; 3]).collect(),
-    };
-    Ok(ColorImage { width: image.width, height: image.height, rgb })
+    PngImage::read(path, "color", range, true).map(ColorImage::from)
+}
+
+/// Of 8 bits a sample.
+impl From<PngImage> for ColorImage {
+    fn from(image: PngImage) -> Self {
+        let rgb = match image.color {
+            ColorType::Rgb => image.data.as_chunks::<3>().0.to_vec(),
+            ColorType::Rgba => {
+                image.data.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
+            }
+            ColorType::GrayscaleAlpha => {
+                image.data.as_chunks::<2>().0.iter().map(|[v, _]| [*v; 3]).collect()
+            }
+            // Palettes have become RGB.
+            ColorType::Grayscale | ColorType::Indexed => {
+                image.data.iter().map(|v| [*v; 3]).collect()
+            }
+        };
+        Self { width: image.width, height: image.height, rgb }
+    }
 }

@@ -1,7 +1,7 @@
 //! Depth images in NPY and PNG.
 
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
-use crate::manifest::Unit;
 use crate::npy::{Dtype, Npy};
 use crate::png_image::{Expected, PngImage};
 use crate::unit_check::check_unit;
@@ -18,7 +18,7 @@ pub(crate) const LEAVE_OUT: &str = "Leave this frame out of the recording, or re
 pub(crate) fn read_depth(
     path: &Path,
     extension: &str,
-    unit: Unit,
+    unit: DepthUnit,
     camera: Expected<'_>,
 ) -> Result<DepthImage, RecordingError> {
     let image = read_any_depth(path, extension, unit, camera)?;
@@ -32,7 +32,7 @@ pub(crate) fn read_depth(
 pub(crate) fn read_any_depth(
     path: &Path,
     extension: &str,
-    unit: Unit,
+    unit: DepthUnit,
     camera: Expected<'_>,
 ) -> Result<DepthImage, RecordingError> {
     let depth_m = match extension {
@@ -46,7 +46,11 @@ pub(crate) fn read_any_depth(
     })
 }
 
-fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {
+fn from_npy(
+    path: &Path,
+    unit: DepthUnit,
+    camera: Expected<'_>,
+) -> Result<Vec<f32>, RecordingError> {
     let npy = Npy::read(path, FIELD, &[Dtype::Float32, Dtype::Float64, Dtype::Uint16])?;
     let (width, height, what) = camera;
     if npy.shape() != [height as usize, width as usize] {
@@ -67,7 +71,11 @@ fn from_npy(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, R
     Ok(scaled(npy.values(), unit))
 }
 
-fn from_png(path: &Path, unit: Unit, camera: Expected<'_>) -> Result<Vec<f32>, RecordingError> {
+fn from_png(
+    path: &Path,
+    unit: DepthUnit,
+    camera: Expected<'_>,
+) -> Result<Vec<f32>, RecordingError> {
     check_integers(path, unit)?;
     let image = PngImage::read(path, FIELD, Some(camera), false)?;
     if (image.color, image.depth) != (ColorType::Grayscale, BitDepth::Sixteen) {
@@ -89,22 +97,22 @@ fn without_saturated(mut values: Vec<f32>) -> Vec<f32> {
 }
 
 /// Whole metres are no depth.
-fn check_integers(path: &Path, unit: Unit) -> Result<(), RecordingError> {
-    match unit {
-        Unit::Millimetres => Ok(()),
-        Unit::Metres => Err(RecordingError::invalid(
-            path,
-            FIELD,
-            "the depths are 16-bit integers, which cannot be metres",
-            "Set depth_unit = \"mm\" in recording.toml",
-        )),
+fn check_integers(path: &Path, unit: DepthUnit) -> Result<(), RecordingError> {
+    if unit != DepthUnit::METRES {
+        return Ok(());
     }
+    Err(RecordingError::invalid(
+        path,
+        FIELD,
+        "the depths are 16-bit integers, which cannot be metres",
+        "Set depth_unit = \"mm\" in recording.toml, or the metres of one",
+    ))
 }
 
 /// `values` in metres.
-pub(crate) fn scaled(mut values: Vec<f32>, unit: Unit) -> Vec<f32> {
-    if unit != Unit::Metres {
-        let factor = unit.metres();
+pub(crate) fn scaled(mut values: Vec<f32>, unit: DepthUnit) -> Vec<f32> {
+    if unit != DepthUnit::METRES {
+        let factor = unit.metres() as f32;
         values.iter_mut().for_each(|value| *value *= factor);
     }
     values

@@ -3,14 +3,15 @@
 mod background;
 mod frame_files;
 mod none_fits;
+mod picture;
 
-use crate::camera_info::CameraInfo;
 use crate::color::ColorImage;
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::frame_source::FrameSource;
 use crate::joints::{Joints, read_joints};
-use crate::manifest::{Manifest, RobotSection};
+use crate::manifest::{Manifest, RangeKind, RobotSection};
 use crate::pattern::Pattern;
 use crate::provenance::Provenance;
 use eyebolt_geometry::{DepthImage, PinholeCamera};
@@ -45,10 +46,20 @@ impl Folder {
     /// frames, no backgrounds where these are named, or a frame without its joints, mask or colour
     /// picture where these are named.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
+        Self::open_in(path, None)
+    }
+
+    /// As [`Folder::open`], of depth in `unit` where that is told, whatever the description says.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Folder::open`].
+    pub fn open_in(path: &Path, unit: Option<DepthUnit>) -> Result<Self, RecordingError> {
         let path = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
-        let manifest = Manifest::read(&path)?;
-        let info = manifest.camera_info.as_deref().map(CameraInfo::read).transpose()?;
+        let mut manifest = Manifest::read(&path)?;
+        manifest.unit = unit.unwrap_or(manifest.unit);
         let names = manifest.range.frames(manifest.range_field())?;
+        let info = picture::camera(&manifest, names.first())?;
         if names.is_empty() {
             return Err(none_fits(&path, manifest.range_field(), &manifest.range));
         }
@@ -162,6 +173,12 @@ impl FrameSource for Folder {
 
     fn in_millimetres(&self) -> bool {
         self.files.in_millimetres()
+    }
+
+    fn integer_unit_m(&self) -> Option<f64> {
+        let manifest = &self.files.manifest;
+        let integers = manifest.kind == RangeKind::Depth && manifest.range.extension() == "png";
+        integers.then(|| manifest.unit.metres())
     }
 
     fn backgrounds_in_millimetres(&self) -> bool {

@@ -4,6 +4,7 @@ use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::manifest::RobotSection;
+use crate::message::StaticTransform;
 use crate::provenance::{Provenance, UNKNOWN};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
@@ -24,6 +25,12 @@ pub trait FrameSource: Debug + Send + Sync {
     /// Name of the camera's optical frame in ROS, where the source knows it.
     fn camera_frame_id(&self) -> Option<&str> {
         None
+    }
+
+    /// Transforms between frames that never move against each other, as the source knows them
+    /// (`/tf_static`): of the camera's frames, of the robot's, or of others.
+    fn static_transforms(&self) -> &[StaticTransform] {
+        &[]
     }
 
     /// What the source says of the robot.
@@ -89,6 +96,12 @@ pub trait FrameSource: Debug + Send + Sync {
     /// Whether depth is stored in whole millimetres.
     fn in_millimetres(&self) -> bool {
         false
+    }
+
+    /// What one of the integers is that depth is stored in, metres; `None` where it is stored in
+    /// floats, or nobody knows. Drivers differ in it by factors of 4 to 10.
+    fn integer_unit_m(&self) -> Option<f64> {
+        None
     }
 
     /// Whether backgrounds are stored in whole millimetres.

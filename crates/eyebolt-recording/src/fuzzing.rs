@@ -4,16 +4,17 @@
 //! asserted.
 
 use crate::bag::{Bag, Encoding, Locator};
-use crate::camera_info::CameraInfo;
+use crate::camera_info::{CameraInfo, PictureForm};
 use crate::cloud::read_cloud;
 use crate::color::read_color;
 use crate::depth::read_depth;
+use crate::depth_unit::DepthUnit;
 use crate::joints::{Joints, read_joints};
-use crate::manifest::{CloudFrame, Manifest, Unit};
+use crate::manifest::{CloudFrame, Manifest};
 use crate::mask::read_mask;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, ImageMessage, JointStateMessage,
-    WireProblem, WireReader, text, transforms,
+    WireProblem, WireReader, color, text, transforms,
 };
 use crate::npy::{Dtype, Npy};
 use crate::png_image::PngImage;
@@ -29,8 +30,8 @@ pub fn npy(path: &Path) {
     if let [height, width] = *npy.shape()
         && let (Ok(width), Ok(height)) = (width.try_into(), height.try_into())
     {
-        let _ = read_depth(path, "npy", Unit::Metres, (width, height, "itself"));
-        let _ = read_depth(path, "npy", Unit::Millimetres, (width, height, "itself"));
+        let _ = read_depth(path, "npy", DepthUnit::METRES, (width, height, "itself"));
+        let _ = read_depth(path, "npy", DepthUnit::MILLIMETRES, (width, height, "itself"));
     }
     cloud(path, "npy");
     let names: Vec<_> = (0..count.min(8)).map(|index| format!("joint_{index}")).collect();
@@ -39,15 +40,15 @@ pub fn npy(path: &Path) {
 
 /// A cloud in a file whose name would end in `extension`: `npy`, `pcd` or `ply`.
 pub fn cloud(path: &Path, extension: &str) {
-    let _ = read_cloud(path, extension, Unit::Metres, CloudFrame::Optical);
-    let _ = read_cloud(path, extension, Unit::Millimetres, CloudFrame::Body);
+    let _ = read_cloud(path, extension, DepthUnit::METRES, CloudFrame::Optical);
+    let _ = read_cloud(path, extension, DepthUnit::MILLIMETRES, CloudFrame::Body);
 }
 
 /// A PNG file as depth, as a mask and as a picture.
 pub fn png(path: &Path) {
     let Ok(image) = PngImage::read(path, "picture", None, false) else { return };
     let size = (image.width, image.height, "itself");
-    let _ = read_depth(path, "png", Unit::Millimetres, size);
+    let _ = read_depth(path, "png", DepthUnit::MILLIMETRES, size);
     let _ = read_mask(path, size);
     let _ = read_color(path, Some(size));
 }
@@ -148,14 +149,20 @@ pub fn messages(bytes: &[u8]) {
         });
         same_again(bytes, &encoding, |reader| {
             let image = CompressedImageMessage::read(reader)?;
-            let _ = image.depth();
+            let _ = (image.depth(), image.size());
+            // Larger ones are refused by their size, before they are decoded.
+            if image.size().is_some_and(|(width, height)| width.saturating_mul(height) < 1 << 20) {
+                let _ = color(image.data);
+            }
             Ok(image.write())
         });
         if let Ok(mut reader) = reader()
             && let Ok(info) = CameraInfoMessage::read(&mut reader)
         {
-            let _ = CameraInfo::from_message(Path::new("bag"), &info, false);
-            let _ = CameraInfo::from_message(Path::new("bag"), &info, true);
+            for (rectified, size) in [(false, None), (true, Some((64, 48)))] {
+                let picture = PictureForm { rectified, size };
+                let _ = CameraInfo::from_message(Path::new("bag"), &info, picture);
+            }
         }
     }
 }

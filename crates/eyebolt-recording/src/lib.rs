@@ -8,7 +8,7 @@
 //!
 //! [frames]                           # {} is the frame's number or name
 //! depth = "depth_{}.npy"             # or 16-bit PNG; or: cloud = "xyz_{}.npy", PCD or PLY
-//! depth_unit = "m"                   # "m" or "mm"
+//! depth_unit = "m"                   # "m", "mm", or the metres of one: 0.0001, "1/5000"
 //! # cloud_frame = "optical"          # clouds only; or "body" (x forward, y left, z up)
 //! color = "color_{}.png"             # optional
 //! mask = "mask_{}.png"               # optional, the whole arm
@@ -47,6 +47,8 @@ mod camera_info;
 mod cloud;
 mod color;
 mod depth;
+mod depth_unit;
+mod describe;
 mod error;
 mod file;
 mod folder;
@@ -61,6 +63,7 @@ mod joints;
 mod manifest;
 mod mask;
 mod message;
+mod no_recording;
 mod npy;
 mod own_metadata;
 mod pattern;
@@ -70,12 +73,15 @@ mod provenance;
 mod recording;
 mod truth;
 mod unit_check;
+mod words;
 mod write;
 
 pub use bag::{BagKind, is_bag};
 pub use bag_recording::{BagOptions, BagRecording, list_topics, static_transforms};
 pub use camera_info::CameraInfo;
 pub use color::ColorImage;
+pub use depth_unit::DepthUnit;
+pub use describe::{Described, describe_folder, description_of};
 pub use error::RecordingError;
 pub use folder::Folder;
 pub use frame::{Frame, Range};
@@ -85,9 +91,12 @@ pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
 pub use npy::{Dtype, Npy, Number};
 pub use progress::{Cancelled, Progress};
-pub use provenance::{ClockOffset, DropReason, DroppedFrame, Provenance, TopicSummary};
+pub use provenance::{
+    ClockOffset, DepthChoice, DropReason, DroppedFrame, Provenance, TopicSummary,
+};
 pub use recording::Recording;
 pub use truth::{CameraMoved, Truth, read_truth};
+pub use words::counted;
 pub use write::{
     McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot, write_folder, write_mcap,
     write_npy, write_static_transforms,

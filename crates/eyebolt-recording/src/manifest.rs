@@ -5,9 +5,10 @@ mod keys;
 mod raw;
 mod source;
 
-pub(crate) use fields::{Background, JointFiles, RangeKind, Unit};
+pub(crate) use fields::{Background, JointFiles, RangeKind};
 pub use fields::{CloudFrame, RobotSection};
 
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::file::read_text;
 use crate::pattern::Pattern;
@@ -22,7 +23,7 @@ pub(crate) struct Manifest {
     pub(crate) camera_info: Option<PathBuf>,
     pub(crate) kind: RangeKind,
     pub(crate) range: Pattern,
-    pub(crate) unit: Unit,
+    pub(crate) unit: DepthUnit,
     pub(crate) color: Option<Pattern>,
     pub(crate) mask: Option<Pattern>,
     pub(crate) joints: JointFiles,
@@ -58,7 +59,7 @@ impl Manifest {
             return Err(source.missing("camera.info", CAMERA));
         }
         let joints = source.joints(frames)?;
-        let unit = source.unit("frames.depth_unit", frames.depth_unit.as_deref())?;
+        let unit = source.unit("frames.depth_unit", frames.depth_unit.as_ref())?;
         let background = raw.background.as_ref().map(|raw| source.background(raw, unit));
         let background = background.transpose()?;
         if background.is_some() && info.is_none() {

@@ -5,6 +5,7 @@
 
 mod camera_info;
 mod cloud;
+mod compressed_color;
 mod compressed_depth;
 mod header;
 mod image;
@@ -20,6 +21,7 @@ mod writer;
 
 pub(crate) use camera_info::CameraInfoMessage;
 pub(crate) use cloud::{CloudMessage, PointField};
+pub(crate) use compressed_color::color;
 pub(crate) use compressed_depth::CompressedImageMessage;
 pub(crate) use header::Header;
 pub(crate) use image::{ImageMessage, is_depth_encoding};

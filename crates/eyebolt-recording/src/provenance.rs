@@ -1,10 +1,12 @@
 //! Where frames come from, and what was found out on the way.
 
 mod clock_offset;
+mod depth_choice;
 mod dropped_frame;
 mod topic_summary;
 
 pub use clock_offset::ClockOffset;
+pub use depth_choice::DepthChoice;
 pub use dropped_frame::{DropReason, DroppedFrame};
 pub use topic_summary::TopicSummary;
 
@@ -29,6 +31,11 @@ pub struct Provenance {
     pub motion_limit: Option<f64>,
     /// Damaged parts that were passed over, in words.
     pub damage: Vec<String>,
+    /// Why this topic of depth was taken, where several could be meant and nobody named one.
+    pub depth_choice: Option<DepthChoice>,
+    /// Joints that are named without a position that can be used, with what is wrong and how often.
+    /// In frames of that time, they have none.
+    pub untold_joints: BTreeMap<String, String>,
     /// All topics, sorted by name.
     pub topics: Vec<TopicSummary>,
 }
@@ -54,5 +61,7 @@ pub(crate) static UNKNOWN: Provenance = Provenance {
     clock_offset: None,
     motion_limit: None,
     damage: Vec::new(),
+    depth_choice: None,
+    untold_joints: BTreeMap::new(),
     topics: Vec::new(),
 };

@@ -5,6 +5,7 @@ use crate::bag_recording::{BagOptions, BagRecording};
 use crate::error::RecordingError;
 use crate::folder::{Folder, MANIFEST};
 use crate::frame_source::FrameSource;
+use crate::no_recording;
 use std::ops::Deref;
 use std::path::Path;
 
@@ -22,7 +23,7 @@ pub enum Recording {
 
 impl Recording {
     /// Opens the recording at `path`: a folder with a `recording.toml`, that file itself, a bag, or
-    /// a folder with a bag in it. `options` are for bags.
+    /// a folder with a bag in it. `options` are for bags, but for the unit of depth.
     ///
     /// # Errors
     ///
@@ -32,7 +33,10 @@ impl Recording {
         if !described && is_bag(path) {
             return BagRecording::open(path, options).map(|bag| Self::Bag(Box::new(bag)));
         }
-        Folder::open(path).map(|folder| Self::Folder(Box::new(folder)))
+        if let Some(error) = no_recording::problem(path, is_bag).filter(|_| !described) {
+            return Err(error);
+        }
+        Folder::open_in(path, options.depth_unit).map(|folder| Self::Folder(Box::new(folder)))
     }
 
     /// What everything but a writer needs to know of it.

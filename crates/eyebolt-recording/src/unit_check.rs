@@ -1,7 +1,7 @@
 //! Whether lengths are plausible in the unit that a recording claims.
 
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
-use crate::manifest::Unit;
 use std::path::Path;
 
 /// No depth camera for a robot arm sees this far, metres.
@@ -17,20 +17,28 @@ const SAMPLES: usize = 8192;
 pub(crate) fn check_unit(
     path: &Path,
     field: &str,
-    unit: Unit,
+    unit: DepthUnit,
     lengths_m: impl ExactSizeIterator<Item = f32> + Clone,
 ) -> Result<(), RecordingError> {
     let Some(median_m) = median(lengths_m) else { return Ok(()) };
-    let (problem, remedy) = match unit {
-        Unit::Metres if median_m > FARTHEST_M => (
-            format!("the median is {median_m} m, which looks like millimetres"),
-            "Set depth_unit = \"mm\" in recording.toml",
-        ),
-        Unit::Millimetres if median_m < NEAREST_M => (
-            format!("the median is {} mm, which looks like metres", median_m * 1e3),
+    let in_metres = unit == DepthUnit::METRES;
+    let (problem, remedy) = if median_m > FARTHEST_M {
+        let unit = if in_metres { "millimetres" } else { "a smaller unit" };
+        (
+            format!("the median is {median_m} m, which looks like {unit}"),
+            "Set depth_unit = \"mm\" in recording.toml, or the metres of one",
+        )
+    } else if median_m < NEAREST_M && !in_metres {
+        let told = match unit {
+            DepthUnit::MILLIMETRES => format!("{} mm, which looks like metres", median_m * 1e3),
+            _ => format!("{median_m} m, which looks like a larger unit"),
+        };
+        (
+            format!("the median is {told}"),
             "Set depth_unit = \"m\" in recording.toml, or store millimetres",
-        ),
-        _ => return Ok(()),
+        )
+    } else {
+        return Ok(());
     };
     Err(RecordingError::invalid(path, field, problem, remedy))
 }

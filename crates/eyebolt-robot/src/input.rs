@@ -50,6 +50,8 @@ inputs! {
     BACKGROUND_TOPIC = "background_topic";
     /// Frame of the points of clouds.
     CLOUD_FRAME = "cloud_frame";
+    /// What one of the numbers that depth is stored in is.
+    DEPTH_UNIT = "depth_unit";
     /// How far a joint may move while a frame is taken.
     MAX_MOTION = "max_motion";
     /// Whether to use what can be read of a damaged bag.

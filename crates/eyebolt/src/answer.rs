@@ -5,8 +5,10 @@
 //! `w >= 0`.
 
 mod findings;
+mod fixed;
 
 pub use findings::{CameraMovedBetween, LinkLength, Part, StatedIntrinsics};
+pub use fixed::Fixed;
 
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::observations::{Background, ImageSource, Observations};
@@ -41,6 +43,9 @@ pub struct Answer {
     pub base_from_camera: Option<Pose>,
     /// Error to expect, at the middle of where the end-effector was.
     pub expected_error: Option<Size>,
+    /// Error to expect of the camera's own position in the base, millimetres: farther from where the
+    /// arm was seen, a wrong rotation moves more.
+    pub camera_position_error_mm: Option<f64>,
     /// Where errors are measured, base frame, metres.
     pub workspace_in_base_m: Option<[f64; 3]>,
     /// What changes when one configuration is left out.
@@ -101,6 +106,10 @@ pub struct Answer {
     /// How the axes of the images are turned in the frame of the points: not at all for depth
     /// images, and hardly for clouds that are in the optical frame as they should be.
     pub optical_from_image: Option<Turn>,
+    /// What the recording tells of frames that never move against the camera's or the base
+    /// (`/tf_static`): exports place the root of the camera's frames by it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub static_transforms: Vec<Fixed>,
     /// Joints of the hand that the recording does not have: they were put at their lower limit.
     pub assumed_joints: Vec<String>,
     /// Name of the robot in its URDF.
@@ -251,6 +260,7 @@ impl Answer {
             camera_from_base: calibration.camera_from_base.as_ref().map(Pose::new),
             base_from_camera: calibration.camera_from_base.map(|pose| Pose::new(&pose.inverse())),
             expected_error: error.and_then(|error| Size::new(&error.expected)),
+            camera_position_error_mm: error.map(|error| 1e3 * error.camera_position_m),
             workspace_in_base_m: error.map(|error| error.workspace_in_base.coords.into()),
             leave_one_out: error.and_then(leave_one_out),
             disagreement: error.and_then(|error| Size::new(&error.disagreement?)),
@@ -270,7 +280,7 @@ impl Answer {
             link_lengths: findings::link_lengths(outcome),
             intrinsics_offset: findings::intrinsics_offset(outcome),
             configurations: frame_outcomes(calibration),
-            frames_left_out: request.source.provenance().dropped_by_reason(),
+            frames_left_out: left_out(request, observations),
             spare_configurations: observations
                 .map_or(0, |observations| observations.spare_configurations),
             clock_offset_s: request
@@ -286,6 +296,10 @@ impl Answer {
             optical_from_image: observations.map(|observations| Turn {
                 rotation_xyzw: observations.optical_from_camera.rotation_xyzw(),
             }),
+            static_transforms: fixed::around(
+                request.source.static_transforms(),
+                &[request.source.camera_frame_id().unwrap_or_default(), request.arm.base_name()],
+            ),
             assumed_joints: observations.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
@@ -318,6 +332,19 @@ impl Answer {
     pub fn notable_joint_offsets(&self) -> impl Iterator<Item = &JointOffset> {
         self.joint_offsets.iter().filter(|joint| joint.is_notable())
     }
+}
+
+/// How many frames are left out, by the name of the reason.
+fn left_out(
+    request: &Request<'_>,
+    observations: Option<&Observations>,
+) -> BTreeMap<&'static str, usize> {
+    let mut counts = request.source.provenance().dropped_by_reason();
+    let untold = observations.map_or(0, |observations| observations.untold_frames);
+    if untold > 0 {
+        counts.insert("joint_not_told", untold);
+    }
+    counts
 }
 
 fn joint_offsets(observations: &Observations, calibration: &Calibration) -> Vec<JointOffset> {

@@ -6,4 +6,4 @@ mod form;
 mod look;
 
 pub use advice::NO_ROBOT;
-pub use form::{Clock, Configuration, Depth, Dropped, Frames, Info, RobotFit, SCHEMA};
+pub use form::{Clock, Configuration, Depth, Dropped, Frames, Info, RobotFit, SCHEMA, Untold};

@@ -15,6 +15,7 @@ pub mod label;
 #[cfg(test)]
 mod made_up;
 pub mod observations;
+mod other_unit;
 pub mod pipeline;
 pub mod pose;
 pub mod progress;

@@ -60,6 +60,7 @@ pub(crate) fn observations(
         assumed_joints: Vec::new(),
         outside_limits: Vec::new(),
         spare_configurations: 0,
+        untold_frames: 0,
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Observations {
     pub outside_limits: Vec<OutsideLimits>,
     /// How many more configurations the recording has, much like those that are used.
     pub spare_configurations: usize,
+    /// Number of frames left out, since a joint of the arm was not told then.
+    pub untold_frames: usize,
 }
 
 /// What is known of the scene without the arm.

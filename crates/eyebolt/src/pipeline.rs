@@ -5,6 +5,7 @@
 use crate::calibrate::{Calibration, Jackknife, Limits, Reason, Verdict, calibrate};
 use crate::label::{Labeller, before_pose};
 use crate::observations::Observations;
+use crate::other_unit::{self, Scaled};
 use crate::pose::{GlobalSearch, PoseProposer};
 use crate::progress::{Cancelled, Progress, Step};
 use crate::record::{RecordError, RecordOptions, observe};
@@ -87,6 +88,54 @@ pub enum Failure {
 ///
 /// What [`observe`] reports; but a recording with none of the robot's joints is refused.
 pub fn run(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Failure> {
+    let mut outcome = once(request, progress)?;
+    if let Some(reason) = other_unit(request, &outcome, progress)? {
+        // An arm of the wrong size fits nowhere: what else is said is of that.
+        outcome.calibration.verdict = Verdict::Refused(vec![reason]);
+    }
+    Ok(outcome)
+}
+
+/// That the arm fits where depth is in another unit, if it does.
+fn other_unit(
+    request: &Request<'_>,
+    outcome: &Outcome,
+    progress: &dyn Progress,
+) -> Result<Option<Reason>, Failure> {
+    let Some(observations) = &outcome.observations else { return Ok(None) };
+    // Labels and poses of a caller's own are of the depth as it is.
+    let (Some(unit_m), None, None) =
+        (request.source.integer_unit_m(), request.labeller, request.proposer)
+    else {
+        return Ok(None);
+    };
+    let verdict = &outcome.calibration.verdict;
+    let factors = other_unit::candidates(request.source, observations, verdict);
+    for (done, factor) in factors.iter().enumerate() {
+        progress.advance(done, factors.len())?;
+        let scaled = Scaled { source: request.source, factor: *factor };
+        let options = other_unit::few(&request.options);
+        let (source, arm): (&dyn FrameSource, _) = (&scaled, request.arm);
+        let trial = Request {
+            source,
+            arm,
+            cache: request.cache.clone(),
+            options,
+            limits: request.limits,
+            seed: request.seed,
+            ..Request::new(source, arm)
+        };
+        let tried = once(&trial, &());
+        let fits = tried.is_ok_and(|tried| tried.calibration.verdict == Verdict::Trusted);
+        tracing::debug!(factor, fits, "depth in another unit");
+        if fits {
+            return Ok(Some(Reason::DepthUnit { unit_m, fitting_m: factor * unit_m }));
+        }
+    }
+    Ok(None)
+}
+
+fn once(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Failure> {
     let Request { source, arm, cache, options, limits, jackknife, .. } = request;
 
     Step::Record.begin(progress)?;

@@ -14,7 +14,7 @@ mod reader;
 mod shapes;
 mod spread;
 
-pub(crate) use configurations::{Group, group_frames};
+pub(crate) use configurations::{Group, Groups, group_frames};
 pub use error::RecordError;
 pub use frame_images::FrameImages;
 pub use observe::observe;

@@ -23,6 +23,7 @@ mod scene;
 mod second_arm;
 mod solids;
 mod stage;
+mod static_frames;
 mod surroundings;
 mod timeline;
 mod true_arm;

@@ -66,6 +66,7 @@ fn observations(width: u32, height: u32) -> Observations {
         assumed_joints: Vec::new(),
         outside_limits: Vec::new(),
         spare_configurations: 0,
+        untold_frames: 0,
     }
 }
 

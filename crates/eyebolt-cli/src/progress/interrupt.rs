@@ -1,7 +1,9 @@
 //! Ctrl-C.
 
+use crate::output;
 use anyhow::{Context, Result};
 use eyebolt_recording::Cancelled;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// How many [`Interrupt`]s there are to end their work on Ctrl-C, and whether they were asked to.
@@ -14,20 +16,40 @@ const INTERRUPTED: i32 = 130;
 /// ever.
 pub struct Interrupt(());
 
+/// What a run that Ctrl-C ends leaves behind, for a person.
+static LEFT: Mutex<Option<String>> = Mutex::new(None);
+
+/// Says `left` of what was done so far, should Ctrl-C end the program at once.
+pub fn leaves(left: String) -> Result<()> {
+    install()?;
+    // A thread that panicked while it held the lock left the text whole.
+    *LEFT.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(left);
+    Ok(())
+}
+
+fn install() -> Result<()> {
+    static INSTALLED: AtomicBool = AtomicBool::new(false);
+    if !INSTALLED.swap(true, Ordering::SeqCst) {
+        #[allow(clippy::disallowed_methods, reason = "what Ctrl-C does without a handler")]
+        ctrlc::set_handler(|| {
+            let again = STOPPED.swap(true, Ordering::SeqCst);
+            if again || LISTENING.load(Ordering::SeqCst) == 0 {
+                let left = LEFT.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take();
+                if let Some(left) = left {
+                    output::complain(&format!("\nstopped: {left}"));
+                }
+                std::process::exit(INTERRUPTED);
+            }
+        })
+        .context("cannot listen for Ctrl-C")?;
+    }
+    Ok(())
+}
+
 impl Interrupt {
     /// Listens for Ctrl-C.
     pub fn new() -> Result<Self> {
-        static INSTALLED: AtomicBool = AtomicBool::new(false);
-        if !INSTALLED.swap(true, Ordering::SeqCst) {
-            #[allow(clippy::disallowed_methods, reason = "what Ctrl-C does without a handler")]
-            ctrlc::set_handler(|| {
-                let again = STOPPED.swap(true, Ordering::SeqCst);
-                if again || LISTENING.load(Ordering::SeqCst) == 0 {
-                    std::process::exit(INTERRUPTED);
-                }
-            })
-            .context("cannot listen for Ctrl-C")?;
-        }
+        install()?;
         LISTENING.fetch_add(1, Ordering::SeqCst);
         Ok(Self(()))
     }

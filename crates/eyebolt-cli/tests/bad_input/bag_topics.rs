@@ -2,7 +2,7 @@
 
 use crate::bag::{Mcap, channel, channels, depth, message, seconds, time_ns};
 use crate::desk::{Desk, text};
-use crate::outcome::assert_unusable;
+use crate::outcome::{assert_not_calibrated, assert_unusable};
 use crate::run::eyebolt;
 use std::fs;
 
@@ -23,7 +23,8 @@ fn the_unspoilt_bag() {
     let bytes = Mcap::new().with(&channels()).with(&seconds(2)).finish();
     fs::write(&path, bytes).unwrap();
     let ended = eyebolt(&["info", text(&path)]);
-    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+    // No robot is in it, so that it is not ready.
+    assert_eq!((ended.code, ended.err.as_str()), (Some(3), ""));
     assert!(ended.out.contains("60 take part"), "{}", ended.out);
 }
 
@@ -33,7 +34,19 @@ fn depth_on_two_topics() {
     records.extend(seconds(1));
     records.extend((0..30).flat_map(|frame| message(9, time_ns(frame), &depth(time_ns(frame)))));
     let topics = ["/camera/depth/image_raw", "/other/depth/image_raw"];
-    assert_unusable_bag(&records, &[&topics[..], &["--depth-topic", "Give one of"]].concat());
+    let desk = Desk::new();
+    let path = desk.file("bag.mcap");
+    fs::write(&path, Mcap::new().with(&records).finish()).unwrap();
+    let words = [&topics[..], &["bag.mcap", "--depth-topic", "Give one of them"]].concat();
+    assert_not_calibrated(&path, &[], &words);
+    // It can be looked at all the same.
+    let ended = eyebolt(&["info", text(&path)]);
+    assert_eq!((ended.code, ended.err.as_str()), (Some(3), ""));
+    let advice = "several topics have depth, and this is of /camera/depth/image_raw: give \
+                  --depth-topic /camera/depth/image_raw";
+    assert!(ended.out.contains(advice) && ended.out.contains("30 take part"), "{}", ended.out);
+    let named = eyebolt(&["info", text(&path), "--depth-topic", "/camera/depth/image_raw"]);
+    assert!(!named.out.contains("several topics"), "{}", named.out);
 }
 
 #[test]
@@ -46,7 +59,7 @@ fn no_joint_states() {
 
 #[test]
 fn no_messages_at_all() {
-    assert_unusable_bag(&channels(), &["--depth-topic", "depth"]);
+    assert_unusable_bag(&channels(), &["the bag: it is empty", "ros2 topic hz"]);
 }
 
 #[test]

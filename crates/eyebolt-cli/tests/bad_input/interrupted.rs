@@ -78,3 +78,34 @@ fn a_data_set_half_filled() {
     assert_eq!(told["labelled"], LABELLED_FRAMES);
     assert!(known > 0 && known < LABELLED_FRAMES as u64, "{known}");
 }
+
+/// Whether the process catches the signal that Ctrl-C sends.
+#[cfg(target_os = "linux")]
+fn catches_interrupts(process: u32) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    let mask = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    // SIGINT is the second.
+    mask.is_some_and(|mask| mask & 0b10 != 0)
+}
+
+/// A calibration writes nothing before its end, and says so.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_calibration_half_done() {
+    let (desk, recorded) = (Desk::new(), long(FRAMES));
+    let output = desk.file("calibration.json");
+    let arguments = crate::run::calibration(recorded.path(), &output, &[]);
+    let mut calibrate = start(&mut command("", &arguments));
+    let begun = Instant::now();
+    while !catches_interrupts(calibrate.id()) && calibrate.try_wait().unwrap().is_none() {
+        assert!(begun.elapsed() < PATIENCE, "it listens to nobody");
+        thread::yield_now();
+    }
+    let sent = Command::new("kill").args(["-INT", &calibrate.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let ended = end(calibrate);
+    assert_eq!((ended.code, ended.out.as_str()), (Some(130), ""), "{}", ended.err);
+    assert_eq!(ended.err.trim(), "stopped: nothing was written");
+    assert!(desk.names().is_empty(), "{:?}", desk.names());
+}

@@ -19,7 +19,7 @@ fn a_missing_joint() {
     let words = [path, "frame 0", "arm joint `roll`", "`bend`", "record these joints or use"];
     assert_not_calibrated(recorded.path(), &[], &words);
     let ended = eyebolt(&["info", path]);
-    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+    assert_eq!((ended.code, ended.err.as_str()), (Some(3), ""));
     assert!(ended.out.contains("joint roll of the arm is not recorded"), "{}", ended.out);
 }
 

@@ -28,7 +28,7 @@ fn a_mesh_that_is_not_there() {
         assert_not_calibrated(recorded.path(), &[], &words);
         // Whoever looks at a recording needs no shapes, but is told.
         let info = eyebolt(&["info", text(recorded.path())]);
-        assert_eq!((info.code, info.err.as_str()), (Some(0), ""));
+        assert_eq!((info.code, info.err.as_str()), (Some(3), ""));
         assert!(words.iter().all(|word| info.out.contains(word)), "{}", info.out);
     }
 }

@@ -43,6 +43,11 @@ fn it_takes_the_next_free_name_and_says_what_it_made() {
         format!("{:.2} mm and {:.3} degrees", number("translation_mm"), number("rotation_deg"));
     assert!(ended.out.contains(&off), "{off} not in: {}", ended.out);
     assert!(number("translation_mm") < 2.0 && number("rotation_deg") < 0.15, "{line}");
+    // The optical frame has a parent on the recording's /tf_static: the root above it is placed.
+    let exported = eyebolt(&["export", text(&calibration), "--as", "tf2"]);
+    let words = "--frame-id link0 --child-frame-id camera_link";
+    assert!(exported.out.contains(words), "{}{}", exported.out, exported.err);
+    assert!(page.contains("--child-frame-id camera_link"));
 }
 
 #[test]

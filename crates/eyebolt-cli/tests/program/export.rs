@@ -65,13 +65,20 @@ fn every_format_goes_to_a_file_and_to_standard_output() {
     let desk = Desk::new();
     for format in FORMATS {
         let file = desk.file(format);
+        // The recording told nothing of the optical frame's parent, which matters to who publishes it.
+        let note = |err: &str| match format {
+            "csv" | "npy" => err.is_empty(),
+            _ => {
+                err.starts_with("note: the recording has no /tf_static") && err.lines().count() == 1
+            }
+        };
         let ended = export(&calibration(), format, &["--output", text(&file)]);
-        assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{format}");
+        assert!(ended.code == Some(0) && note(&ended.err), "{format}: {}", ended.err);
         let said = format!("pose of depth_optical in base, written to {}\n", text(&file));
         assert_eq!(ended.out, said);
         if !matches!(format, "npy" | "mcap") && !format.starts_with("easy") {
             let ended = export(&calibration(), format, &[]);
-            assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{format}");
+            assert!(ended.code == Some(0) && note(&ended.err), "{format}: {}", ended.err);
             assert_eq!(ended.out.as_bytes(), fs::read(&file).unwrap(), "{format}");
         }
     }

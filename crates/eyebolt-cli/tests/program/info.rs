@@ -12,8 +12,10 @@ fn json(recording: &Path, more: &[&str]) -> Value {
     let mut arguments = vec!["info", text(recording), "--json"];
     arguments.extend(more);
     let ended = eyebolt(&arguments);
-    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
-    serde_json::from_str(&ended.out).unwrap()
+    let info: Value = serde_json::from_str(&ended.out).unwrap();
+    let code = if info["ready"].as_bool().unwrap() { 0 } else { 3 };
+    assert_eq!((ended.code, ended.err.as_str()), (Some(code), ""));
+    info
 }
 
 /// Whether one of the pieces of advice has all of `words`.
@@ -26,7 +28,7 @@ fn advises(info: &Value, words: &[&str]) -> bool {
 fn a_good_recording_is_ready() {
     let info = json(&RECORDING, &[]);
     assert_eq!(info["advice"].as_array().unwrap().len(), 0, "{info}");
-    assert_eq!(info["schema"], "eyebolt.info/1");
+    assert_eq!((&info["schema"], &info["ready"]), (&"eyebolt.info/1".into(), &true.into()));
     assert_eq!((&info["kind"], &info["frames"]["used"]), (&"folder".into(), &5.into()));
     assert_eq!(info["configurations"].as_array().unwrap().len(), 5);
     assert_eq!(info["robot"]["base"], "base");
@@ -43,7 +45,11 @@ fn another_robots_joints_are_named() {
     let info = json(&RECORDING, &["--robot", text(&urdf)]);
     assert_eq!(info["robot"]["missing_joints"], serde_json::json!(["neck"]));
     assert_eq!(info["robot"]["unknown_joints"].as_array().unwrap().len(), 6);
-    assert!(advises(&info, &["neck", "record these joint states"]), "{info}");
+    assert!(
+        advises(&info, &["joint neck of the arm is not recorded: record its states"]),
+        "{info}"
+    );
+    assert_eq!(info["ready"], false);
 }
 
 #[test]
@@ -57,6 +63,9 @@ fn few_configurations_are_said_to_be_few() {
         info["configurations"].as_array().unwrap().iter().map(|c| c["frames"].clone()).collect();
     assert_eq!(frames, [2, 1]);
     assert!(advises(&info, &["2 arm configurations are too few", "at least 3"]), "{info}");
+    assert_eq!(info["ready"], false);
+    let ended = eyebolt(&["info", text(desk.path())]);
+    assert!(ended.out.contains("not ready to calibrate") && ended.code == Some(3));
 }
 
 #[test]
@@ -95,7 +104,8 @@ fn a_recording_without_a_robot_can_be_looked_at() {
 
 #[test]
 fn what_is_no_recording_is_an_error() {
-    eyebolt(&["info", "no/such/place"]).assert_error(1, &["no/such/place", "cannot read"]);
+    eyebolt(&["info", "no/such/place"])
+        .assert_error(1, &["no/such/place", "no such file or folder"]);
 }
 
 #[test]

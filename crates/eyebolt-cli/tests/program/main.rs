@@ -22,3 +22,4 @@ mod simulate;
 mod simulate_flags;
 mod study;
 mod train;
+mod words;

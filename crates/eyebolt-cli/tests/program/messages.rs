@@ -47,7 +47,7 @@ fn a_missing_recording_is_named() {
     let empty = desk.file("empty");
     fs::create_dir(&empty).unwrap();
     let ended = calibrate(&empty, &desk.file("c.json"), &[]);
-    ended.assert_error(1, &["recording.toml", "cannot read", "Check that the file exists"]);
+    ended.assert_error(1, &["empty", "the folder is empty", "a folder with a recording.toml"]);
     assert_eq!(desk.names(), ["empty"]);
 }
 

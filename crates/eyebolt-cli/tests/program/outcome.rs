@@ -100,5 +100,5 @@ fn of_more_configurations_than_wanted_the_rest_is_said_to_be_spare() {
     let answer: Value = serde_json::from_slice(&fs::read(desk.file(file)).unwrap()).unwrap();
     assert_eq!(answer["spare_configurations"], 1);
     assert_eq!(answer["configurations"].as_array().unwrap().len(), 4);
-    assert!(ended.out.contains("1 more configurations not needed"), "{}", ended.out);
+    assert!(ended.out.contains("1 more configuration not needed"), "{}", ended.out);
 }

@@ -1,10 +1,10 @@
 //! The camera of a bag.
 
-use super::choose::{Chosen, is_rectified};
+use super::choose::{Chosen, is_rectified, size};
 use super::options::BagOptions;
 use super::scan::{Content, Scan};
 use crate::bag::Bag;
-use crate::camera_info::CameraInfo;
+use crate::camera_info::{CameraInfo, PictureForm};
 use crate::error::RecordingError;
 use crate::message::{CameraInfoMessage, WireReader};
 use eyebolt_robot::Input;
@@ -18,9 +18,10 @@ pub(super) fn read_camera(
     chosen: &Chosen,
     options: &BagOptions,
 ) -> Result<Option<CameraInfo>, RecordingError> {
-    let rectified = is_rectified(scan.topic(chosen.range));
+    let depth = scan.topic(chosen.range);
+    let picture = PictureForm { rectified: is_rectified(depth), size: size(depth) };
     if let Some(path) = &options.camera_info {
-        return CameraInfo::read_for(path, rectified).map(Some);
+        return CameraInfo::read_for(path, picture).map(Some);
     }
     let Some(topic) = chosen.camera_info.map(|number| scan.topic(number)) else { return Ok(None) };
     let Content::CameraInfo { locator: Some(locator), .. } = &topic.content else {
@@ -33,7 +34,7 @@ pub(super) fn read_camera(
             let field = format!("{}: {}", topic.name, wrong.field);
             RecordingError::invalid(path, field, wrong.problem, "Record it again")
         })?;
-    let info = CameraInfo::from_message(path, &message, rectified);
+    let info = CameraInfo::from_message(path, &message, picture);
     info.map(Some).map_err(|error| match error {
         RecordingError::Invalid { field, problem, .. } => {
             let remedy = format!(

@@ -1,6 +1,6 @@
 //! What is wrong with a topic that the recording needs is wrong with the recording.
 
-use super::choose::{COLOR, Chosen};
+use super::choose::{COLOR, COLOR_INFO, Chosen};
 use super::pair::Paired;
 use super::scan::{Content, Scan, TopicScan};
 use crate::error::RecordingError;
@@ -20,7 +20,8 @@ pub(super) fn check_topics(
     partial: bool,
 ) -> Result<(), RecordingError> {
     // Colour is for people only, who do without some pictures.
-    for (number, _) in chosen.roles().filter(|(_, role)| *role != COLOR) {
+    let of_colour = |role: &str| [COLOR, COLOR_INFO].contains(&role);
+    for (number, _) in chosen.roles().filter(|(_, role)| !of_colour(role)) {
         let topic = scan.topic(number);
         if !partial {
             check_messages(path, topic)?;
@@ -86,7 +87,8 @@ pub(super) fn check_joints(
 ) -> Result<(), RecordingError> {
     let farthest = |joint: usize| {
         let positions = paired.kept.iter().filter_map(|kept| kept.positions.get(joint));
-        positions.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
+        let told = positions.copied().filter(|position| !position.is_nan());
+        told.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
     };
     let joints = paired.names.iter().enumerate().map(|(joint, name)| (name, farthest(joint)));
     let suspects: Vec<_> = joints.filter(|(_, far)| looks_like_degrees(*far)).collect();

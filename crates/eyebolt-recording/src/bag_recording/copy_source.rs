@@ -5,6 +5,7 @@ use super::known::Known;
 use super::options::BagOptions;
 use super::scan::{Scan, is_static};
 use crate::bag::{Bag, Message, Topic};
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::manifest::{CloudFrame, RobotSection};
 use eyebolt_geometry::PinholeCamera;
@@ -33,6 +34,7 @@ impl CopyFacts {
         options: &BagOptions,
         known: Known,
         cloud_frame: Option<CloudFrame>,
+        depth_unit: Option<DepthUnit>,
     ) -> Self {
         let topics = chosen.roles().map(|(number, _)| {
             let topic = scan.topic(number);
@@ -45,7 +47,7 @@ impl CopyFacts {
         Self {
             topics: topics.collect(),
             messages: usize::try_from(messages).unwrap_or(usize::MAX),
-            metadata: known.of_copy(background, cloud_frame),
+            metadata: known.of_copy(background, cloud_frame, depth_unit),
             given_camera_topic: options.camera_info.is_some().then(beside),
             partial: options.partial,
         }

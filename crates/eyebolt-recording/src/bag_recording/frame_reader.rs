@@ -5,11 +5,12 @@ use super::picture_topic::PictureTopic;
 use super::scan::FrameEntry;
 use crate::bag::Bag;
 use crate::color::ColorImage;
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Range;
-use crate::manifest::{CloudFrame, Unit};
+use crate::manifest::CloudFrame;
 use crate::message::{
-    CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, types,
+    CloudMessage, CompressedImageMessage, ImageMessage, WireProblem, WireReader, color, types,
 };
 use crate::unit_check::check_unit;
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
@@ -24,6 +25,8 @@ pub(super) struct FrameReader<'a> {
     pub(super) bag: &'a Bag,
     /// The camera of all pictures, unless they are clouds without one.
     pub(super) camera: Option<&'a PinholeCamera>,
+    /// The unit of depth, where it is another than REP 118 says.
+    pub(super) unit: Option<DepthUnit>,
 }
 
 impl FrameReader<'_> {
@@ -68,11 +71,16 @@ impl FrameReader<'_> {
         };
         let field = topic.field(entry);
         self.check_size(&field, size)?;
-        let unit = if in_millimetres { Unit::Millimetres } else { Unit::Metres };
+        let rep_118 = if in_millimetres { DepthUnit::MILLIMETRES } else { DepthUnit::METRES };
+        let unit = self.unit.unwrap_or(rep_118);
+        let depth_m = in_unit(depth_m, unit, rep_118);
         check_unit(self.path, &field, unit, depth_m.iter().copied()).map_err(|error| {
-            let remedy =
-                "Correct the driver: 16UC1 is in millimetres and 32FC1 in metres (REP 118)";
-            self.invalid(&field, error.problem(), remedy)
+            let remedy = format!(
+                "Correct the driver: 16UC1 is in millimetres and 32FC1 in metres (REP 118); or say \
+                 with {} what one is",
+                Input::DEPTH_UNIT
+            );
+            self.invalid(&field, error.problem(), &remedy)
         })?;
         let (width, height) = size;
         DepthImage::new(width, height, depth_m)
@@ -114,10 +122,16 @@ impl FrameReader<'_> {
     ) -> Result<Cloud, RecordingError> {
         let (points, (width, height)) = self.points(topic, entry)?;
         let field = topic.field(entry);
+        let unit = self.unit.unwrap_or(DepthUnit::METRES);
+        let points: Vec<[f32; 3]> =
+            points.into_iter().map(|point| point.map(|c| c * unit.metres() as f32)).collect();
         let lengths = points.iter().map(|[x, y, z]: &[f32; 3]| x.hypot(*y).hypot(*z));
-        check_unit(self.path, &field, Unit::Metres, lengths).map_err(|error| {
-            let remedy = "Correct the driver: points are in metres (REP 118)";
-            self.invalid(&field, error.problem(), remedy)
+        check_unit(self.path, &field, unit, lengths).map_err(|error| {
+            let remedy = format!(
+                "Correct the driver: points are in metres (REP 118); or say with {} what one is",
+                Input::DEPTH_UNIT
+            );
+            self.invalid(&field, error.problem(), &remedy)
         })?;
         let points: Vec<Point3<f32>> =
             points.into_iter().map(|xyz| crate::cloud::optical(xyz, frame)).collect();
@@ -170,12 +184,28 @@ impl FrameReader<'_> {
         entry: &FrameEntry,
     ) -> Result<Option<ColorImage>, RecordingError> {
         let size = self.camera.map(|camera| (camera.width(), camera.height()));
+        let check = |width, height| match size.filter(|size| *size != (width, height)) {
+            None => Ok(()),
+            Some((w, h)) => {
+                let problem = format!("the picture is {width} x {height}, the camera {w} x {h}");
+                Err(WireProblem::new("width", problem))
+            }
+        };
+        if topic.message_type == types::COMPRESSED_IMAGE {
+            let bytes = self.bag.read(entry.locator)?;
+            let read = WireReader::new(&topic.encoding, &bytes)
+                .and_then(|mut reader| CompressedImageMessage::read(&mut reader))
+                .and_then(|message| {
+                    // Before it is decoded: a few bytes may claim many pixels.
+                    message.size().map_or(Ok(()), |(width, height)| check(width, height))?;
+                    color(message.data)
+                })
+                .and_then(|color| check(color.width, color.height).map(|()| color));
+            return read.map(Some).map_err(|problem| self.unreadable(topic, entry, problem));
+        }
         self.image(topic, entry, |image| {
             let (width, height) = (image.width, image.height);
-            if let Some((w, h)) = size.filter(|size| *size != (width, height)) {
-                let problem = format!("the picture is {width} x {height}, the camera {w} x {h}");
-                return Err(WireProblem::new("width", problem));
-            }
+            check(width, height)?;
             Ok(image.rgb()?.map(|rgb| ColorImage { width, height, rgb }))
         })
     }
@@ -206,6 +236,15 @@ impl FrameReader<'_> {
     fn invalid(&self, field: &str, problem: impl Into<String>, remedy: &str) -> RecordingError {
         RecordingError::invalid(self.path, field, problem, remedy)
     }
+}
+
+/// Depth of `unit` that was taken for `read_as`.
+fn in_unit(mut depth_m: Vec<f32>, unit: DepthUnit, read_as: DepthUnit) -> Vec<f32> {
+    if unit != read_as {
+        let factor = (unit.metres() / read_as.metres()) as f32;
+        depth_m.iter_mut().for_each(|depth| *depth *= factor);
+    }
+    depth_m
 }
 
 /// Points, with width and height.

@@ -2,6 +2,7 @@
 
 use super::choose::Chosen;
 use super::scan::{Content, Scan};
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::own_metadata::{BACKGROUND_TOPIC, check_names};
@@ -13,6 +14,7 @@ use std::path::Path;
 pub(super) struct Known(BTreeMap<String, String>);
 
 const CLOUD_FRAME: &str = "cloud_frame";
+const DEPTH_UNIT: &str = "depth_unit";
 
 impl Known {
     pub(super) fn new(metadata: Option<&BTreeMap<String, String>>) -> Self {
@@ -31,6 +33,11 @@ impl Known {
     /// The frame of clouds that a caller once said.
     pub(super) fn cloud_frame(&self) -> Option<CloudFrame> {
         CloudFrame::named(self.get(CLOUD_FRAME)?)
+    }
+
+    /// The unit of depth that a caller once said.
+    pub(super) fn depth_unit(&self) -> Option<DepthUnit> {
+        DepthUnit::parse(self.get(DEPTH_UNIT)?)
     }
 
     /// Names of all frames, where the bag was written from something that had names for them.
@@ -64,11 +71,14 @@ impl Known {
         mut self,
         background: Option<&str>,
         cloud_frame: Option<CloudFrame>,
+        depth_unit: Option<DepthUnit>,
     ) -> BTreeMap<String, String> {
         // Its messages may have got lost, or a caller may have named it.
         self.0.remove(BACKGROUND_TOPIC);
         let frame = cloud_frame.map(CloudFrame::name);
-        let told = [(BACKGROUND_TOPIC, background), (CLOUD_FRAME, frame)];
+        let unit = depth_unit.map(|unit| unit.to_string());
+        let told =
+            [(BACKGROUND_TOPIC, background), (CLOUD_FRAME, frame), (DEPTH_UNIT, unit.as_deref())];
         let told = told.into_iter().filter_map(|(key, value)| Some((key, value?)));
         self.0.extend(told.map(|(key, value)| (key.to_owned(), value.to_owned())));
         self.0

@@ -1,5 +1,6 @@
 //! How to read a bag.
 
+use crate::depth_unit::DepthUnit;
 use crate::manifest::CloudFrame;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,8 @@ use std::path::{Path, PathBuf};
 pub struct BagOptions {
     /// Topic of the depth images or clouds.
     pub depth_topic: Option<String>,
+    /// Of several topics of depth, take one: the one that the others were made of, if that is known.
+    pub any_depth: bool,
     /// Topic of their intrinsics.
     pub camera_info_topic: Option<String>,
     /// File of their intrinsics, instead of a topic.
@@ -22,6 +25,9 @@ pub struct BagOptions {
     pub mask_topic: Option<String>,
     /// Topic of depth images of the scene without the robot.
     pub background_topic: Option<String>,
+    /// What the numbers of depth are, where the driver does not keep to millimetres of integers and
+    /// metres of floats (REP 118).
+    pub depth_unit: Option<DepthUnit>,
     /// Frame of the points of clouds.
     pub cloud_frame: Option<CloudFrame>,
     /// How far a joint may move while a frame is taken, radians or metres; otherwise the data tell.

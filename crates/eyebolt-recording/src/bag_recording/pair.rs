@@ -29,7 +29,7 @@ impl From<&Unfit> for DropReason {
 pub(super) struct Kept {
     /// Number among the frames of the topic.
     pub(super) index: usize,
-    /// In the order of [`Paired::names`].
+    /// In the order of [`Paired::names`]; NaN of joints that were not told.
     pub(super) positions: Box<[f64]>,
 }
 

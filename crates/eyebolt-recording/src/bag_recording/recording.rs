@@ -4,6 +4,7 @@ use super::camera::read_camera;
 use super::check::{check_background, check_joints, check_topics};
 use super::choose::Chosen;
 use super::clock::clock_offset;
+use super::color_view::ColorView;
 use super::copy_source::{CopyFacts, CopySource};
 use super::frame_reader::FrameReader;
 use super::known::Known;
@@ -15,11 +16,12 @@ use super::topics::summaries;
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
 use crate::color::ColorImage;
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::frame_source::{FrameSource, check_index};
 use crate::manifest::{CloudFrame, RobotSection};
-use crate::message::types;
+use crate::message::{StaticTransform, types};
 use crate::provenance::{ClockOffset, DroppedFrame, Provenance, TopicSummary};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
@@ -41,10 +43,15 @@ pub struct BagRecording {
     kept: Vec<Kept>,
     mask: Option<PictureTopic>,
     color: Option<PictureTopic>,
+    /// Where the colour is of another camera.
+    color_view: Option<ColorView>,
     background: Option<PictureTopic>,
     /// Of clouds.
     cloud_frame: Option<CloudFrame>,
+    /// Where it is another than REP 118 says.
+    depth_unit: Option<DepthUnit>,
     copy_facts: CopyFacts,
+    static_transforms: Vec<StaticTransform>,
     provenance: Provenance,
 }
 
@@ -90,8 +97,10 @@ impl BagRecording {
         check_joints(path, joints, &paired)?;
         let names = frame_names(known.frame_names(path)?, depth.frames().len(), &paired);
 
+        let color_view = ColorView::read(path, &bag, &scan, &chosen)?;
         let range = PictureTopic::kept(depth, &paired.kept);
-        let reader = FrameReader { path, bag: &bag, camera: None };
+        let depth_unit = options.depth_unit.or_else(|| known.depth_unit());
+        let reader = FrameReader { path, bag: &bag, camera: None, unit: depth_unit };
         let cloud_frame = match options.cloud_frame.or_else(|| known.cloud_frame()) {
             None => first_cloud_frame(&reader, &range)?,
             told => told,
@@ -105,6 +114,13 @@ impl BagRecording {
             dropped: paired.dropped,
             clock_offset: offset,
             motion_limit: Some(paired.motion_limit),
+            depth_choice: chosen.depth_choice,
+            untold_joints: joints
+                .untold()
+                .into_iter()
+                .flat_map(|untold| untold.reasons(joints.count))
+                .map(|(name, reason)| (name.to_owned(), reason))
+                .collect(),
             damage: scan.damage.iter().map(ToString::to_string).collect(),
             topics: summaries(&scan, Some(&chosen)),
         };
@@ -117,10 +133,13 @@ impl BagRecording {
             kept: paired.kept,
             mask: topic(chosen.mask).map(PictureTopic::pictures),
             color: topic(chosen.color).map(PictureTopic::pictures),
-            copy_facts: CopyFacts::new(&scan, &chosen, options, known, cloud_frame),
+            color_view,
+            copy_facts: CopyFacts::new(&scan, &chosen, options, known, cloud_frame, depth_unit),
+            depth_unit,
             range,
             background,
             cloud_frame,
+            static_transforms: scan.static_transforms,
             provenance,
             bag,
         })
@@ -173,8 +192,13 @@ impl BagRecording {
         }
     }
 
+    fn is_in_rep_118(&self) -> bool {
+        self.depth_unit.is_none_or(|unit| unit == DepthUnit::MILLIMETRES)
+    }
+
     fn reader(&self) -> FrameReader<'_> {
-        FrameReader { path: &self.path, bag: &self.bag, camera: self.camera() }
+        let (path, bag, unit) = (&self.path, &self.bag, self.depth_unit);
+        FrameReader { path, bag, camera: self.camera(), unit }
     }
 }
 
@@ -190,6 +214,10 @@ impl FrameSource for BagRecording {
         let turned = self.cloud_frame == Some(CloudFrame::Body);
         let of_frames = self.range.frame_id.as_deref().filter(|_| !turned);
         of_frames.or(in_info)
+    }
+
+    fn static_transforms(&self) -> &[StaticTransform] {
+        &self.static_transforms
     }
 
     fn robot(&self) -> &RobotSection {
@@ -231,7 +259,9 @@ impl FrameSource for BagRecording {
     fn read_joints(&self, index: usize) -> Result<JointPositions, RecordingError> {
         check_index(self, index)?;
         let kept = self.kept.get(index).expect("as many positions as names");
-        Ok(self.joint_names.iter().cloned().zip(kept.positions.iter().copied()).collect())
+        let told = self.joint_names.iter().zip(kept.positions.iter().copied());
+        let told = told.filter(|(_, position)| !position.is_nan());
+        Ok(told.map(|(name, position)| (name.clone(), position)).collect())
     }
 
     /// Reads the colour picture of frame `index`; `None` if there is none of that moment.
@@ -242,8 +272,16 @@ impl FrameSource for BagRecording {
     fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         check_index(self, index)?;
         let entry = self.range.entries.get(index).expect("as many pictures as names");
-        let picture = picture_of(self.color.as_ref(), entry);
-        picture.map_or(Ok(None), |(topic, entry)| self.reader().color(topic, entry))
+        let Some((topic, picture)) = picture_of(self.color.as_ref(), entry) else {
+            return Ok(None);
+        };
+        let (Some(view), Some(camera)) = (&self.color_view, self.camera()) else {
+            return self.reader().color(topic, picture);
+        };
+        let reader = FrameReader { camera: Some(&view.camera), ..self.reader() };
+        let Some(color) = reader.color(topic, picture)? else { return Ok(None) };
+        let depth = self.reader().depth_image(&self.range, entry)?;
+        Ok(Some(view.seen_by(camera, &depth, &color)))
     }
 
     fn background_count(&self) -> usize {
@@ -275,11 +313,16 @@ impl FrameSource for BagRecording {
     }
 
     fn in_millimetres(&self) -> bool {
-        self.range.in_millimetres
+        self.range.in_millimetres && self.is_in_rep_118()
+    }
+
+    fn integer_unit_m(&self) -> Option<f64> {
+        let unit = self.depth_unit.unwrap_or(DepthUnit::MILLIMETRES);
+        self.range.in_millimetres.then(|| unit.metres())
     }
 
     fn backgrounds_in_millimetres(&self) -> bool {
-        self.background.as_ref().is_some_and(|topic| topic.in_millimetres)
+        self.background.as_ref().is_some_and(|topic| topic.in_millimetres) && self.is_in_rep_118()
     }
 
     fn provenance(&self) -> &Provenance {

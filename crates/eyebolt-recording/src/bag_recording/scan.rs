@@ -5,7 +5,7 @@ mod pictures;
 mod topic;
 
 pub(super) use pictures::{FrameEntry, PictureKind, Unfit};
-pub(super) use topic::{Content, Intrinsics, TopicScan, is_static};
+pub(super) use topic::{Content, TopicScan, is_static};
 
 use crate::bag::{Bag, Locator, Message, Topic};
 use crate::error::RecordingError;

@@ -8,6 +8,7 @@ use crate::bag::Bag;
 use crate::error::RecordingError;
 use crate::message::StaticTransform;
 use crate::provenance::TopicSummary;
+use crate::words::counted;
 use std::path::Path;
 
 /// The topics of the bag at `path`, whether or not they make a recording.
@@ -60,19 +61,33 @@ fn problems(topic: &TopicScan) -> Vec<String> {
     let mut problems = Vec::new();
     if let Some((_, problem)) = &topic.first_problem {
         problems.push(format!(
-            "{} messages cannot be read, the first because of {}: {}",
-            topic.unreadable, problem.field, problem.problem
+            "{} cannot be read, the first because of {}: {}",
+            counted(topic.unreadable, "message"),
+            problem.field,
+            problem.problem
         ));
     }
     if topic.stamps.unset > 0 {
         problems.push(format!(
-            "{} messages have no time stamp; the time of recording stands in",
-            topic.stamps.unset
+            "{} {} no time stamp; the time of recording stands in",
+            counted(topic.stamps.unset, "message"),
+            if topic.stamps.unset == 1 { "has" } else { "have" }
         ));
     }
     let (backward, _) = topic.backward();
     if backward > 0 {
-        problems.push(format!("{backward} time stamps run backward"));
+        let run = if backward == 1 { "runs" } else { "run" };
+        problems.push(format!("{} {run} backward", counted(backward, "time stamp")));
+    }
+    let untold = topic.untold().into_iter().flat_map(|untold| untold.reasons(topic.count));
+    problems.extend(untold.map(|(_, reason)| format!("{reason}: it counts as not told there")));
+    let second: u64 = topic.tracks().iter().map(Track::second).sum();
+    if second > 0 {
+        problems.push(format!(
+            "a second publisher tells the same joints and always the same positions: {} of it left \
+             out. End it before you record (joint_state_publisher?)",
+            counted(second, "message")
+        ));
     }
     let coarsest = topic.tracks().iter().map(Track::tolerance).fold(0.0, f64::max);
     if coarsest > COARSE {

@@ -1,14 +1,19 @@
 //! Positions of joints over time, in as few numbers as interpolation needs.
 
 mod line;
+mod second_publisher;
 
 use line::{Line, Piece};
+use second_publisher::of_one_publisher;
 
 /// Positions that one publisher told, as a broken line through some of its samples.
 ///
 /// A sample that lies on the line between others is not kept, so that hours of an arm at rest take
 /// no memory: the "swinging door" of E. H. Bristol ("Swinging door trending", 1990). The line is
 /// within twice `tolerance` of every sample, or four times where that had to be made coarser.
+///
+/// A message need not tell every joint: NaN stands for what it does not tell, and the line turns
+/// wherever a joint begins or ends to be told.
 ///
 /// However much there is to tell, a track is of bounded size: should the line turn too often, it is
 /// made coarser, and if even that is of no help, every other turn is forgotten.
@@ -27,6 +32,8 @@ pub(super) struct Track {
     count: u64,
     backward: u64,
     first_backward_ns: Option<(i64, i64)>,
+    /// Messages of a second publisher that were taken out.
+    second: u64,
     /// Turns that were gone through again, to make the line coarser.
     #[cfg(test)]
     gone_through: usize,
@@ -59,6 +66,7 @@ impl Track {
             count: 0,
             backward: 0,
             first_backward_ns: None,
+            second: 0,
             #[cfg(test)]
             gone_through: 0,
         }
@@ -93,13 +101,23 @@ impl Track {
         self.first_backward_ns
     }
 
+    /// Number of places where a second publisher, which always told the same, was taken out.
+    pub(super) fn second(&self) -> u64 {
+        self.second
+    }
+
+    /// Whether some joint is seen to move.
+    pub(super) fn moves(&self) -> bool {
+        self.line.moves(STILL)
+    }
+
     /// First and last stamp, nanoseconds.
     pub(super) fn span_ns(&self) -> Option<(i64, i64)> {
         let last = self.last.as_ref().map(|(stamp, ..)| *stamp).or(self.line.last_ns())?;
         Some((self.line.first_ns()?, last))
     }
 
-    /// Adds a sample of as many positions as there are names.
+    /// Adds a sample of as many positions as there are names; NaN for joints that it does not tell.
     pub(super) fn push(&mut self, stamp_ns: i64, positions: &[f64]) {
         self.count += 1;
         match self.span_ns() {
@@ -117,8 +135,17 @@ impl Track {
         }
     }
 
-    /// Ends the line at the last sample.
+    /// Ends the line, of which no more samples come.
     pub(super) fn finish(&mut self) {
+        self.end();
+        if let Some((line, second)) = of_one_publisher(&self.line, STILL) {
+            (self.line, self.second) = (line, second);
+            self.count = self.count.saturating_sub(second);
+        }
+    }
+
+    /// Ends the line at the last sample.
+    fn end(&mut self) {
         if let Some((stamp, positions, gap)) = self.last.take() {
             self.turn(stamp, &positions, gap);
         }
@@ -133,7 +160,7 @@ impl Track {
             self.last = Some((stamp_ns, kept, longest_ns));
             return;
         }
-        self.finish();
+        self.end();
         if self.is_known(positions, gap_ns) {
             // From the new turn, one sample can always be reached.
             self.passes(stamp_ns, positions);
@@ -147,6 +174,10 @@ impl Track {
     /// samples are up to `gap_ns` apart on that way. Where it is not, a gap stands alone, so that
     /// nothing is taken for unknown that is not.
     fn is_known(&self, positions: &[f64], gap_ns: i64) -> bool {
+        let mut told = self.line.end().iter().zip(positions);
+        if told.any(|(a, b)| a.is_nan() != b.is_nan()) {
+            return false;
+        }
         let steps = self.line.end().iter().zip(positions).map(|(a, b)| (a - b).abs());
         gap_ns <= DENSE_NS || (gap_ns <= SPARSE_NS && steps.fold(0.0, f64::max) <= STILL)
     }
@@ -193,6 +224,7 @@ impl Track {
             count: self.count,
             backward: self.backward,
             first_backward_ns: self.first_backward_ns,
+            second: self.second,
             #[cfg(test)]
             gone_through: self.gone_through + self.line.turns(),
             ..smaller
@@ -215,7 +247,7 @@ impl Track {
                 _ => coarse.extend(stamp_ns, positions, gap_ns),
             }
         }
-        coarse.finish();
+        coarse.end();
         coarse
     }
 
@@ -240,9 +272,19 @@ impl Track {
         self.line.nearest(stamp_ns)
     }
 
-    /// The turn before `stamp_ns`, else the first one: what was told last.
+    /// The turn before `stamp_ns`, else the first one: what was told last, of each joint.
     pub(super) fn held(&self, stamp_ns: i64) -> Vec<f64> {
         self.line.held(stamp_ns)
+    }
+
+    /// Where `joint` was at `stamp_ns`, if messages that do not tell it stand between others that
+    /// do, near enough to interpolate.
+    pub(super) fn across(&self, joint: usize, stamp_ns: i64) -> Option<f64> {
+        let [(start_ns, start), (end_ns, end)] = self.line.told_around(joint, stamp_ns)?;
+        let gap_ns = end_ns.saturating_sub(start_ns);
+        let near = gap_ns <= DENSE_NS || (gap_ns <= SPARSE_NS && (end - start).abs() <= STILL);
+        let share = stamp_ns.saturating_sub(start_ns) as f64 / gap_ns.max(1) as f64;
+        near.then_some(start + share * (end - start))
     }
 
     /// Whether its samples are mostly further apart than `dense_ns`.

@@ -36,12 +36,17 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> Result<Stored, RecordingErro
     Ok(Stored { xyz, grid })
 }
 
+/// Largest page of memory that a file is padded to, bytes.
+const LARGEST_PAGE: usize = 64 << 10;
+
 fn binary(path: &Path, data: &[u8], header: &Header) -> Result<Vec<f32>, RecordingError> {
     let (count, stride) = (header.count, header.layout.stride);
     let needed = count.checked_mul(stride);
-    // A line end after the last point does no harm.
+    // A line end after the last point does no harm, nor do the zeros up to the end of a page, where
+    // the file was mapped into memory.
     let rest = needed.and_then(|needed| data.get(needed..));
-    if !rest.is_some_and(|rest| rest.iter().all(u8::is_ascii_whitespace)) {
+    let harmless = |byte: &u8| byte.is_ascii_whitespace() || *byte == 0;
+    if !rest.is_some_and(|rest| rest.len() <= LARGEST_PAGE && rest.iter().all(harmless)) {
         let found = data.len();
         let problem = format!(
             "{count} points of {stride} bytes do not take the {found} bytes that follow the header"

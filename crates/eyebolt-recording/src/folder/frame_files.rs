@@ -4,9 +4,10 @@ use crate::camera_info::CameraInfo;
 use crate::cloud::read_cloud;
 use crate::color::{ColorImage, read_color};
 use crate::depth::{read_any_depth, read_depth};
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Range;
-use crate::manifest::{CloudFrame, Manifest, RangeKind, Unit};
+use crate::manifest::{CloudFrame, Manifest, RangeKind};
 use crate::mask::read_mask;
 use crate::png_image::Expected;
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
@@ -27,13 +28,15 @@ impl FrameFiles {
     /// Whether depth is stored in whole millimetres.
     pub(super) fn in_millimetres(&self) -> bool {
         let depth = self.manifest.kind == RangeKind::Depth;
-        depth && self.manifest.unit == Unit::Millimetres && self.manifest.range.extension() == "png"
+        depth
+            && self.manifest.unit == DepthUnit::MILLIMETRES
+            && self.manifest.range.extension() == "png"
     }
 
     /// Whether backgrounds are stored in whole millimetres.
     pub(super) fn backgrounds_in_millimetres(&self) -> bool {
         self.manifest.background.as_ref().is_some_and(|background| {
-            background.unit == Unit::Millimetres && background.files.extension() == "png"
+            background.unit == DepthUnit::MILLIMETRES && background.files.extension() == "png"
         })
     }
 

@@ -1,9 +1,9 @@
 //! What a frame handed in has to be, as the readers of files ask of theirs.
 
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Range;
 use crate::joints;
-use crate::manifest::Unit;
 use crate::unit_check::check_unit;
 use eyebolt_geometry::{Mask, PinholeCamera};
 use eyebolt_robot::JointPositions;
@@ -59,7 +59,7 @@ impl<'a> Place<'a> {
         field: &str,
         lengths_m: impl ExactSizeIterator<Item = f32> + Clone,
     ) -> Result<(), RecordingError> {
-        check_unit(self.source, field, Unit::Metres, lengths_m)
+        check_unit(self.source, field, DepthUnit::METRES, lengths_m)
             .map_err(|error| self.invalid(field, error.problem(), "Hand in metres"))
     }
 

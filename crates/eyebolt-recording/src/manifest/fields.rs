@@ -1,5 +1,6 @@
 //! What the fields of a `recording.toml` can say.
 
+use crate::depth_unit::DepthUnit;
 use crate::pattern::Pattern;
 use std::path::PathBuf;
 
@@ -14,23 +15,6 @@ pub struct RobotSection {
     pub base: Option<String>,
     /// Name of the end-effector link.
     pub end_effector: Option<String>,
-}
-
-/// Unit of stored lengths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unit {
-    Metres,
-    Millimetres,
-}
-
-impl Unit {
-    /// Metres of one.
-    pub(crate) fn metres(self) -> f32 {
-        match self {
-            Self::Metres => 1.0,
-            Self::Millimetres => 1e-3,
-        }
-    }
 }
 
 /// Frame that the points of a cloud are stored in.
@@ -74,8 +58,8 @@ pub(crate) enum JointFiles {
 }
 
 /// Depth images of the scene without the robot.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Background {
     pub(crate) files: Pattern,
-    pub(crate) unit: Unit,
+    pub(crate) unit: DepthUnit,
 }

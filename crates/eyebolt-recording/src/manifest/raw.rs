@@ -24,7 +24,7 @@ pub(super) struct RawCamera {
 pub(super) struct RawFrames {
     pub(super) depth: Option<String>,
     pub(super) cloud: Option<String>,
-    pub(super) depth_unit: Option<String>,
+    pub(super) depth_unit: Option<RawUnit>,
     pub(super) cloud_frame: Option<String>,
     pub(super) color: Option<String>,
     pub(super) mask: Option<String>,
@@ -36,7 +36,15 @@ pub(super) struct RawFrames {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawBackground {
     pub(super) depth: Option<String>,
-    pub(super) depth_unit: Option<String>,
+    pub(super) depth_unit: Option<RawUnit>,
+}
+
+/// A unit of length, by name or by its metres.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum RawUnit {
+    Metres(f64),
+    Name(String),
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -1,7 +1,8 @@
 //! From the spelled fields to their meaning.
 
-use super::fields::{Background, CloudFrame, JointFiles, RangeKind, Unit};
-use super::raw::{RawBackground, RawFrames};
+use super::fields::{Background, CloudFrame, JointFiles, RangeKind};
+use super::raw::{RawBackground, RawFrames, RawUnit};
+use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::pattern::{Pattern, extension};
 use std::path::Path;
@@ -43,11 +44,11 @@ impl Source<'_> {
     pub(super) fn background(
         &self,
         raw: &RawBackground,
-        unit: Unit,
+        unit: DepthUnit,
     ) -> Result<Background, RecordingError> {
         let files = self.files("background.depth", raw.depth.as_deref(), &["npy", "png"])?;
         let what = "the files of depth images without the robot, as in \"background_{}.npy\"";
-        let own = raw.depth_unit.as_deref();
+        let own = raw.depth_unit.as_ref();
         Ok(Background {
             files: files.ok_or_else(|| self.missing("background.depth", what))?,
             unit: match own {
@@ -89,16 +90,18 @@ impl Source<'_> {
         }
     }
 
-    pub(super) fn unit(&self, field: &str, text: Option<&str>) -> Result<Unit, RecordingError> {
-        let two = "\"m\" (metres) or \"mm\" (millimetres)";
-        match text {
-            Some("m") => Ok(Unit::Metres),
-            Some("mm") => Ok(Unit::Millimetres),
-            Some(other) => {
-                Err(self.invalid(field, format!("found \"{other}\""), &format!("Write {two}")))
-            }
-            None => Err(self.missing(field, &format!("{two}; the unit is never guessed"))),
-        }
+    pub(super) fn unit(
+        &self,
+        field: &str,
+        told: Option<&RawUnit>,
+    ) -> Result<DepthUnit, RecordingError> {
+        let ways = DepthUnit::WAYS;
+        let (unit, found) = match told {
+            Some(RawUnit::Metres(metres)) => (DepthUnit::of_metres(*metres), metres.to_string()),
+            Some(RawUnit::Name(name)) => (DepthUnit::parse(name), format!("\"{name}\"")),
+            None => return Err(self.missing(field, &format!("{ways}; the unit is never guessed"))),
+        };
+        unit.ok_or_else(|| self.invalid(field, format!("found {found}"), &format!("Write {ways}")))
     }
 
     pub(super) fn joints(&self, frames: &RawFrames) -> Result<JointFiles, RecordingError> {

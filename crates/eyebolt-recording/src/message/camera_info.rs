@@ -19,10 +19,14 @@ pub(crate) struct CameraInfoMessage<'a> {
     pub(crate) r: [f64; 9],
     /// 3 x 4, rows: intrinsics of the rectified picture.
     pub(crate) p: [f64; 12],
+    /// Pixels of the sensor that make one of the picture, in x and y; 0 is 1.
+    pub(crate) binning: [u32; 2],
+    /// The part of the sensor that is seen: x and y of its corner, height and width; all 0 is all.
+    pub(crate) roi: [u32; 4],
+    pub(crate) do_rectify: bool,
 }
 
 impl<'a> CameraInfoMessage<'a> {
-    /// Reads all but binning and region of interest, which the size of the image tells of.
     pub(crate) fn read(reader: &mut WireReader<'a>) -> Result<Self, WireProblem> {
         Ok(Self {
             header: Header::read(reader)?,
@@ -33,6 +37,14 @@ impl<'a> CameraInfoMessage<'a> {
             k: reader.f64_array("k")?,
             r: reader.f64_array("r")?,
             p: reader.f64_array("p")?,
+            binning: [reader.u32("binning_x")?, reader.u32("binning_y")?],
+            roi: [
+                reader.u32("roi.x_offset")?,
+                reader.u32("roi.y_offset")?,
+                reader.u32("roi.height")?,
+                reader.u32("roi.width")?,
+            ],
+            do_rectify: reader.bool("roi.do_rectify")?,
         })
     }
 
@@ -46,9 +58,8 @@ impl<'a> CameraInfoMessage<'a> {
         writer.f64_array(&self.k);
         writer.f64_array(&self.r);
         writer.f64_array(&self.p);
-        // Binning in x and y; a region of interest of offsets, size and no wish to rectify.
-        (0..6).for_each(|_| writer.u32(0));
-        writer.bool(false);
+        self.binning.iter().chain(&self.roi).for_each(|number| writer.u32(*number));
+        writer.bool(self.do_rectify);
         writer.finish()
     }
 }

@@ -1,5 +1,6 @@
 //! `sensor_msgs/CompressedImage` with depth in it, as `compressed_depth_image_transport` writes it.
 
+use super::compressed_color;
 use super::header::Header;
 use super::image::millimetres;
 use super::rvl;
@@ -51,6 +52,19 @@ impl<'a> CompressedImageMessage<'a> {
     /// Whether the picture is depth.
     pub(crate) fn is_depth(&self) -> bool {
         self.format.contains("compressedDepth")
+    }
+
+    /// Width and height of the picture, where its first bytes tell.
+    pub(crate) fn size(&self) -> Option<(u32, u32)> {
+        if !self.is_depth() {
+            return compressed_color::size(self.data);
+        }
+        let picture = self.data.get(CONFIG_BYTES..)?;
+        let number = |at: usize| Some(u32::from_le_bytes(*picture.get(at..)?.first_chunk::<4>()?));
+        match self.format.rsplit(' ').next() {
+            Some("rvl") => Some((number(0)?, number(4)?)),
+            _ => compressed_color::size(picture),
+        }
     }
 
     /// The depth in metres. Formats: `16UC1` or `32FC1`, `; compressedDepth`, then `png` (also where

@@ -5,6 +5,9 @@ use super::wire::{WireProblem, WireReader};
 use super::writer::WireWriter;
 
 /// Positions of joints. Velocities and efforts are of no use here.
+///
+/// A position belongs to the name of its index. Not every publisher tells as many of both; commands
+/// of velocity or effort alone come without positions.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JointStateMessage<'a> {
     pub(crate) header: Header<'a>,
@@ -22,12 +25,6 @@ impl<'a> JointStateMessage<'a> {
         let count = reader.count("name", SMALLEST_TEXT)?;
         let names = (0..count).map(|_| reader.string("name")).collect::<Result<Vec<_>, _>>()?;
         let positions = reader.f64_sequence("position")?;
-        // Commands of velocity or effort alone come without positions, and tell none.
-        if !positions.is_empty() && positions.len() != names.len() {
-            let (names, positions) = (names.len(), positions.len());
-            let problem = format!("{positions} positions for {names} names");
-            return Err(WireProblem::new("position", problem));
-        }
         Ok(Self { header, names, positions })
     }
 

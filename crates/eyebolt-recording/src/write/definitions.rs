@@ -2,6 +2,9 @@
 
 use crate::message::types;
 
+/// The topic of transforms that never change.
+pub(super) const TF_STATIC: &str = "/tf_static";
+
 const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 const HEADER: (&str, &str) =
     ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n");

@@ -8,6 +8,7 @@ mod output;
 use super::error::WriteError;
 use super::png;
 use super::robot::WriteRobot;
+use crate::error::RecordingError;
 use crate::folder::MANIFEST;
 use crate::progress::Progress;
 use crate::recording::Recording;
@@ -16,6 +17,7 @@ use description::{Found, camera_info, manifest};
 use left_out::LeftOut;
 use names::{CAMERA_INFO, URDF};
 use output::Output;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Writes the frames of `recording` that take part to the folder `folder`, which must exist:
@@ -63,6 +65,7 @@ fn frames(
     progress: &dyn Progress,
 ) -> Result<Found, WriteError> {
     let (mut found, mut left_out) = (Found::default(), LeftOut::default());
+    let told = told_joints(recording)?;
     for (index, name) in recording.frame_names().iter().enumerate() {
         progress.advance(index, total(recording))?;
         let frame = match recording.read_frame(index) {
@@ -72,8 +75,18 @@ fn frames(
             }
             read => read?,
         };
+        if let Some(untold) = told.iter().find(|name| frame.joints.get(name).is_none()) {
+            let problem = format!("the position of {untold} is not told");
+            left_out.add(&RecordingError::invalid(
+                recording_path(recording),
+                "joints",
+                problem,
+                "",
+            ));
+            continue;
+        }
         output.range(&frame)?;
-        output.joint_row(&frame)?;
+        output.joint_row(&frame, &told)?;
         if let Some(mask) = &frame.mask {
             let png = png::mask(mask.width(), mask.height(), mask.as_slice());
             output.picture(&format!("mask_{name}.png"), png)?;
@@ -91,6 +104,23 @@ fn frames(
     }
     // A description of no frame would name files that are not there.
     if found.frames == 0 { Err(left_out.none_left()) } else { Ok(found) }
+}
+
+fn recording_path(recording: &Recording) -> &Path {
+    Path::new(&recording.provenance().name)
+}
+
+/// Joints that most frames tell, sorted: a table has a position for each in every row. What is told
+/// seldom is of no arm.
+fn told_joints(recording: &Recording) -> Result<Vec<String>, WriteError> {
+    let count = recording.frame_names().len();
+    let mut told: BTreeMap<String, usize> = BTreeMap::new();
+    for index in 0..count {
+        for (name, _) in recording.read_joints(index)?.iter() {
+            *told.entry(name.to_owned()).or_default() += 1;
+        }
+    }
+    Ok(told.into_iter().filter(|(_, frames)| 2 * frames > count).map(|(name, _)| name).collect())
 }
 
 fn backgrounds(

@@ -48,6 +48,7 @@ pub(super) fn write(
         camera: recording.camera(),
         camera_frame_id: recording.camera_frame_id().unwrap_or(OPTICAL_FRAME),
         in_millimetres: recording.in_millimetres(),
+        static_transforms: recording.static_transforms(),
         urdf: robot.urdf.as_deref(),
         metadata,
     };

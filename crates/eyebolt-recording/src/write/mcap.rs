@@ -1,6 +1,6 @@
 //! MCAP with ROS 2 messages, as `ros2 bag record -s mcap` writes it.
 
-use super::definitions::definition;
+use super::definitions::{TF_STATIC, definition};
 use super::error::WriteError;
 use crate::message::{StaticTransform, types, write_transforms};
 use mcap::records::{MessageHeader, Metadata};
@@ -112,7 +112,7 @@ pub fn write_static_transforms(
 ) -> Result<(), WriteError> {
     let mut writer = McapWriter::new(output)?;
     let data = write_transforms(transforms, stamp_ns);
-    writer.write("/tf_static", types::TRANSFORMS, stamp_ns, &data)?;
+    writer.write(TF_STATIC, types::TRANSFORMS, stamp_ns, &data)?;
     writer.finish()
 }
 

@@ -1,11 +1,12 @@
 //! A recording as MCAP, message by message: the one place that knows the topics of ours.
 
+use super::definitions::TF_STATIC;
 use super::error::WriteError;
 use super::mcap::McapWriter;
 use super::messages;
 use crate::camera_info::camera_info_message;
 use crate::color::ColorImage;
-use crate::message::{Header, types};
+use crate::message::{Header, StaticTransform, types, write_transforms};
 use crate::own_metadata::{self, BACKGROUND_TOPIC, SCHEMA};
 use crate::truth::{self, Truth};
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
@@ -35,6 +36,8 @@ pub struct RecordingInfo<'a> {
     /// Whether depth is stored in whole millimetres (`16UC1`, up to 65.534 m) or, bit by bit, in
     /// metres (`32FC1`).
     pub in_millimetres: bool,
+    /// Transforms that never change, of the camera's frames and the robot's.
+    pub static_transforms: &'a [StaticTransform],
     /// Text of the URDF.
     pub urdf: Option<&'a str>,
     /// Name of the base link.
@@ -54,6 +57,7 @@ pub struct RecordingWriter<W: Write + Seek> {
     camera: Option<PinholeCamera>,
     camera_frame_id: String,
     in_millimetres: bool,
+    static_transforms: Vec<StaticTransform>,
     urdf: Option<String>,
     metadata: BTreeMap<String, String>,
     begun: bool,
@@ -64,6 +68,7 @@ pub(super) struct Described<'a> {
     pub(super) camera: Option<&'a PinholeCamera>,
     pub(super) camera_frame_id: &'a str,
     pub(super) in_millimetres: bool,
+    pub(super) static_transforms: &'a [StaticTransform],
     pub(super) urdf: Option<&'a str>,
     pub(super) metadata: BTreeMap<String, String>,
 }
@@ -84,6 +89,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
                 camera: Some(info.camera),
                 camera_frame_id: info.camera_frame_id,
                 in_millimetres: info.in_millimetres,
+                static_transforms: info.static_transforms,
                 urdf: info.urdf,
                 metadata: known.map(|(key, value)| (key.to_owned(), value.to_owned())).collect(),
             },
@@ -96,6 +102,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
             camera: info.camera.cloned(),
             camera_frame_id: info.camera_frame_id.to_owned(),
             in_millimetres: info.in_millimetres,
+            static_transforms: info.static_transforms.to_vec(),
             urdf: info.urdf.map(str::to_owned),
             metadata: info.metadata,
             begun: false,
@@ -264,6 +271,10 @@ impl<W: Write + Seek> RecordingWriter<W> {
             if let Some(urdf) = &self.urdf {
                 let data = messages::description(urdf);
                 self.writer.write(DESCRIPTION, types::STRING, stamp_ns, &data)?;
+            }
+            if !self.static_transforms.is_empty() {
+                let data = write_transforms(&self.static_transforms, stamp_ns);
+                self.writer.write(TF_STATIC, types::TRANSFORMS, stamp_ns, &data)?;
             }
         }
         self.writer.write(topic, message_type, stamp_ns, data)

@@ -118,3 +118,61 @@ fn a_camera_of_another_size_is_refused_with_the_frame() {
         [DEPTH_TOPIC, "at 1700000000.005 s", "the image is 4 x 3", "is 8 x 6", "`camera_info`"];
     super::sample::assert_says(bag.open().read_frame(0), &parts);
 }
+
+/// Intrinsics of a sensor that pictures show a part of, binned.
+struct Sensor {
+    size: (u32, u32),
+    binning: [u32; 2],
+    /// x, y, height, width.
+    roi: [u32; 4],
+}
+
+impl Sensor {
+    fn info(&self) -> Vec<u8> {
+        let k = [10.0, 0.0, 4.5, 0.0, 12.0, 3.5, 0.0, 0.0, 1.0];
+        let cdr = writer::Cdr::with_header(START_NS, FRAME).u32(self.size.1).u32(self.size.0);
+        let cdr = cdr.text("plumb_bob").count(0).f64s(&k).f64s(&[0.0; 21]);
+        self.binning.iter().chain(&self.roi).fold(cdr, |cdr, n| cdr.u32(*n)).u8(0).done()
+    }
+
+    fn camera(&self) -> [f64; 4] {
+        let mut bag = without_info();
+        bag.add(INFO_TOPIC, CAMERA_INFO, START_NS, self.info());
+        let bag = bag.open();
+        let camera = bag.camera().unwrap();
+        assert_eq!((camera.width(), camera.height()), SIZE);
+        bag.read_frame(0).unwrap();
+        [camera.fx(), camera.fy(), camera.cx(), camera.cy()]
+    }
+}
+
+#[test]
+fn pictures_of_a_binned_sensor_or_a_part_of_it_have_its_intrinsics() {
+    let sensor = |size, binning, roi| Sensor { size, binning, roi }.camera();
+    assert_eq!(sensor((8, 6), [2, 2], [0; 4]), [5.0, 6.0, 2.25, 1.75]);
+    assert_eq!(sensor((8, 3), [2, 0], [0; 4]), [5.0, 12.0, 2.25, 3.5]);
+    assert_eq!(sensor((9, 7), [1, 1], [3, 2, 3, 4]), [10.0, 12.0, 1.5, 1.5]);
+    // Binned is what is cut out.
+    assert_eq!(sensor((20, 20), [2, 2], [1, 2, 6, 8]), [5.0, 6.0, 1.75, 0.75]);
+    // Some drivers tell what is of the picture, and binning beside it.
+    assert_eq!(sensor(SIZE, [2, 2], [0; 4]), [10.0, 12.0, 4.5, 3.5]);
+    let mut other = without_info();
+    let info = Sensor { size: (16, 12), binning: [2, 2], roi: [0; 4] }.info();
+    other.add(INFO_TOPIC, CAMERA_INFO, START_NS, info);
+    super::sample::assert_says(other.open().read_frame(0), &["the image is 4 x 3", "16 x 12"]);
+}
+
+#[test]
+fn intrinsics_of_nothing_but_the_rectified_picture_are_taken() {
+    let mut bag = without_info();
+    let mut data = writer::camera_info(START_NS, FRAME, SIZE, 8.0);
+    // As depthai-ros tells it: K all zero, P filled.
+    let k: Vec<u8> = [8.0, 0.0, 2.0, 0.0, 8.0, 1.5, 0.0, 0.0, 1.0_f64]
+        .into_iter()
+        .flat_map(f64::to_le_bytes)
+        .collect();
+    let at = data.windows(k.len()).position(|window| window == k).unwrap();
+    data[at..at + k.len()].fill(0);
+    bag.add(INFO_TOPIC, CAMERA_INFO, START_NS, data);
+    assert_eq!(focal(&bag), 4.0);
+}

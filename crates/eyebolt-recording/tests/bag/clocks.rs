@@ -43,7 +43,7 @@ fn a_few_stamps_that_run_backward_are_dropped() {
     let bag = bag.open();
     let (index, reason) = bag.reasons().remove(0);
     assert_eq!((index, reason.as_str()), (7, "its time stamp is not later than the one before"));
-    assert_eq!(bag.problems(DEPTH_TOPIC), ["1 time stamps run backward"]);
+    assert_eq!(bag.problems(DEPTH_TOPIC), ["1 time stamp runs backward"]);
     assert_eq!(bag.problems(JOINTS), ["4 time stamps run backward"]);
     let kept = Bag::sample().open();
     assert_eq!(bag.frame_names().len(), kept.frame_names().len() - 1);

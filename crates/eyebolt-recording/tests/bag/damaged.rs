@@ -23,7 +23,7 @@ fn a_damaged_frame_is_an_error_or_dropped() {
         assert!(index == 2 && reason.contains(said), "{reason}");
         // The others keep their numbers.
         assert_eq!(bag.frame_names(), [&names[..2], &names[3..]].concat());
-        assert!(bag.problems(DEPTH_TOPIC)[0].contains("1 messages cannot be read"));
+        assert!(bag.problems(DEPTH_TOPIC)[0].contains("1 message cannot be read"));
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod backgrounds;
 mod cameras;
+mod choices;
 mod clocks;
 mod clouds;
 mod damaged;
@@ -12,5 +13,7 @@ mod pictures;
 mod reader;
 mod real;
 mod sample;
+mod second_publisher;
 mod topics;
+mod untold;
 mod writer;

@@ -109,7 +109,7 @@ fn topics_in_other_languages_do_no_harm() {
     let bag = bag.open();
     assert_eq!(bag.role("depth").as_deref(), Some(DEPTH_TOPIC));
     assert!(
-        bag.problems("/odd")[0].contains("1 messages cannot be read"),
+        bag.problems("/odd")[0].contains("1 message cannot be read"),
         "{:?}",
         bag.problems("/odd")
     );

@@ -133,3 +133,27 @@ fn scans_without_some_of_their_pixels_have_no_grid() {
         assert_eq!(frame.range.size(), expected);
     }
 }
+
+#[test]
+fn files_of_the_openni_grabbers_are_in_the_frame_that_is_told() {
+    let points = [[500.0; 3], [1.0, 2.0, 700.0]];
+    let text = pcd(&points);
+    let grabbed = text.replace("WIDTH", "VIEWPOINT 0 0 0 0 1 0 0\nWIDTH");
+    let read = |text: &str| bits(&with_cloud("pcd", text.as_bytes()).frame().unwrap());
+    assert_eq!(read(&grabbed), read(&text));
+}
+
+#[test]
+fn files_that_are_padded_to_a_page_are_read() {
+    let path = fixtures().join("grid_f4_binary.pcd");
+    let mut bytes = fs::read(&path).unwrap();
+    let whole = bits(&with_cloud("pcd", &bytes).frame().unwrap());
+    bytes.resize(bytes.len().next_multiple_of(4096), 0);
+    assert_eq!(bits(&with_cloud("pcd", &bytes).frame().unwrap()), whole);
+    // What is not zero is no padding, nor is more than a page.
+    *bytes.last_mut().unwrap() = 1;
+    assert!(with_cloud("pcd", &bytes).frame().is_err());
+    *bytes.last_mut().unwrap() = 0;
+    bytes.resize(1 << 20, 0);
+    assert!(with_cloud("pcd", &bytes).frame().is_err());
+}

@@ -25,7 +25,7 @@ fn unknown_keys_are_refused_with_the_nearest() {
 #[test]
 fn toml_errors_name_the_line() {
     described("[camera]", "[camera", &["line 2", "Correct it"]);
-    described("depth_unit = \"m\"", "depth_unit = 3", &["line 7", "integer", "string"]);
+    described("depth = \"depth_{}.npy\"", "depth = 3", &["line 6", "integer", "string"]);
     described("[frames]", "", &["camera.", "not known"]);
 }
 
@@ -38,6 +38,7 @@ fn depth_or_cloud_but_not_both() {
 
 #[test]
 fn units_and_frames_are_said() {
+    described("\"m\"", "3", &["frames.depth_unit", "found 3", "0.0001"]);
     described("\"m\"", "\"cm\"", &["frames.depth_unit", "\"cm\"", "\"m\" (metres)", "\"mm\""]);
     described("depth_unit = \"m\"\n", "", &["frames.depth_unit", "missing", "never guessed"]);
     let sample = Sample::cloud();

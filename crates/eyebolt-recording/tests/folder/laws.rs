@@ -227,3 +227,29 @@ fn a_folder_serves_many_threads() {
     });
     assert_eq!(names, ["2", "10"]);
 }
+
+proptest! {
+    // Every case writes a folder.
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    /// Tenths, quarters and eighths of a millimetre, and whatever else a driver has.
+    #[test]
+    fn integers_are_so_many_of_the_unit(
+        stored in proptest::collection::vec(2000_u16..60_000, PIXELS),
+        unit in prop_oneof![
+            Just(("0.0001", 1e-4)),
+            Just(("0.00025", 2.5e-4)),
+            Just(("0.000125", 1.25e-4)),
+            Just(("\"1/5000\"", 2e-4)),
+        ],
+    ) {
+        let sample = Sample::depth();
+        sample.describe("\"m\"", unit.0);
+        sample.write("depth_2.npy", &npy_u16(&[HEIGHT, WIDTH], &stored));
+        let read = depths(&sample.frame().unwrap());
+        for (read, stored) in read.iter().zip(stored) {
+            let depth = unit.1 * f64::from(stored);
+            prop_assert!((f64::from(*read) - depth).abs() < 1e-6 * depth);
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod camera_info;
 mod cloud_errors;
 mod clouds;
 mod damaged;
+mod describe;
 mod errors;
 mod joint_errors;
 mod joint_files;

@@ -33,6 +33,7 @@ pub fn info(camera: &PinholeCamera, in_millimetres: bool) -> RecordingInfo<'_> {
         camera,
         camera_frame_id: "eye_optical",
         in_millimetres,
+        static_transforms: &[],
         urdf: Some(URDF),
         base: Some("base_link"),
         end_effector: Some("hand"),

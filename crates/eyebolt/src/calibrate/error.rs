@@ -45,6 +45,9 @@ pub struct ErrorPart {
 pub struct ErrorEstimate {
     /// Root mean square error to expect, of all sources together.
     pub expected: Deviation,
+    /// The same of the camera's own position in the base frame, metres: `expected` is of points in the
+    /// workspace, where the arm was seen.
+    pub camera_position_m: f64,
     /// What each source adds.
     pub parts: Vec<ErrorPart>,
     /// Covariance of the answer, translation (m) then rotation (rad), in the answer's frame, as
@@ -117,7 +120,9 @@ pub(crate) fn estimate(
     };
     let end = refinement.end();
     let to_optical = to_optical(work);
+    let camera_in_base = Point3::from(pose.inverse().translation_m());
     ErrorEstimate {
+        camera_position_m: expected(&covariance, &pose, &camera_in_base).translation_m,
         expected: expected(&covariance, &pose, &workspace_in_base),
         parts: parts.collect(),
         covariance: to_optical * covariance * to_optical.transpose(),

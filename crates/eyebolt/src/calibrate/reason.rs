@@ -1,6 +1,7 @@
 //! Trusted, or why not.
 
 use crate::joint_limits::OutsideLimits;
+use eyebolt_robot::Input;
 
 /// Trusted, or refused with reasons.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,18 @@ pub enum Reason {
         used: usize,
         /// Configurations needed.
         needed: usize,
+    },
+    /// The arm fits where depth is in another unit.
+    #[error(
+        "the arm fits if one of the integers of depth is {fitting_m} m, and the recording says {unit_m} m: \
+         give {} {fitting_m}, or set depth_unit in recording.toml",
+        Input::DEPTH_UNIT
+    )]
+    DepthUnit {
+        /// What the recording says one of the integers is, metres.
+        unit_m: f64,
+        /// With what the arm fits, metres.
+        fitting_m: f64,
     },
     /// No pose was found.
     #[error(

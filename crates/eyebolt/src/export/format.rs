@@ -91,6 +91,11 @@ impl Format {
         }
     }
 
+    /// Whether it is for somebody who publishes it on tf, and not for people who compute with it.
+    pub fn is_published(self) -> bool {
+        !matches!(self, Self::Csv | Self::Npy)
+    }
+
     /// The placement in this form: UTF-8 text that ends with a line break, but for
     /// [`Format::Npy`] and [`Format::Mcap`].
     ///

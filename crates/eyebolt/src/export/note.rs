@@ -29,6 +29,23 @@ pub enum Note {
         /// Its parent.
         parent: FrameName,
     },
+    /// The recording's own frames place the camera already.
+    Replaces {
+        /// The frame that the camera's root hangs on.
+        parent: FrameName,
+        /// The root of the camera's frames.
+        child: FrameName,
+    },
+    /// What the recording told of its frames makes no tree.
+    NoTree {
+        /// Why not.
+        problem: String,
+    },
+    /// Nobody knows whether the optical frame has a parent.
+    TreeUnknown {
+        /// The depth optical frame.
+        optical: FrameName,
+    },
     /// The static transforms have no frame of the calibration.
     TreeApart {
         /// Where they come from.
@@ -60,6 +77,22 @@ impl fmt::Display for Note {
                 f,
                 "{child} has the parent {parent} already: published beside it, this export would \
                  give {child} two parents, and tf would jump between them"
+            ),
+            Self::Replaces { parent, child } => write!(
+                f,
+                "the recording has a transform from {parent} to {child}, of an earlier calibration \
+                 or of a description: this one is to stand in its place, so end whatever publishes \
+                 that one"
+            ),
+            Self::NoTree { problem } => {
+                write!(f, "the recorded frames are of no use here: {problem}")
+            }
+            Self::TreeUnknown { optical } => write!(
+                f,
+                "the recording has no /tf_static, so nobody knows here whether {optical} has a parent. \
+                 If the camera's driver gives it one, this export gives it a second, and tf jumps \
+                 between them: give {} then",
+                Input::CAMERA_TREE
             ),
             Self::TreeApart { tree, base, optical, known } => write!(
                 f,

@@ -40,6 +40,41 @@ pub struct Placement {
 }
 
 impl Placement {
+    /// The pose that is `wanted`, over the calibration and the transforms that its recording told.
+    ///
+    /// Where these place the camera already, as an earlier calibration does, the transform that does
+    /// so is the one that is exported anew: no frame gets a second parent.
+    ///
+    /// # Errors
+    /// As of [`Placement::find`].
+    pub fn of_recording(
+        calibration: &SavedCalibration,
+        wanted: &Wanted<'_>,
+    ) -> Result<Self, ExportError> {
+        let tree = calibration.tree();
+        let optical = optical_frame(calibration, tree, wanted)?;
+        let Some((tree, parent, child)) = tree.cut_between(&calibration.base_frame, &optical)
+        else {
+            let mut placement = Self::find(calibration, tree, wanted)?;
+            placement.notes.extend(
+                calibration
+                    .tree_problem()
+                    .map(|problem| Note::NoTree { problem: problem.to_owned() }),
+            );
+            if tree.is_empty() && placement.child_is_optical && wanted.child.is_none() {
+                placement.notes.push(Note::TreeUnknown { optical });
+            }
+            return Ok(placement);
+        };
+        let by_default = wanted.parent.is_none() && wanted.child.is_none();
+        let parent_name = if by_default { Some(parent.as_str()) } else { wanted.parent };
+        let mut placement =
+            Self::find(calibration, &tree, &Wanted { parent: parent_name, ..*wanted })?;
+        placement.notes.retain(|note| !matches!(note, Note::ChildIsRoot { .. }));
+        placement.notes.push(Note::Replaces { parent, child });
+        Ok(placement)
+    }
+
     /// The pose that is `wanted`, over the calibration and the transforms of `tree`.
     ///
     /// # Errors

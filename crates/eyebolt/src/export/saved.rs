@@ -9,6 +9,7 @@ pub use corrections::Corrections;
 use super::error::ExportError;
 use super::file::read_text;
 use super::frame_name::FrameName;
+use super::static_tree::{StaticEdge, StaticTree, static_pose};
 use crate::answer::SCHEMA;
 use corrections::RawCorrections;
 use eyebolt_geometry::{Base, Camera, Transform};
@@ -33,6 +34,8 @@ pub struct SavedCalibration {
     refused: Option<Vec<String>>,
     base_from_camera: Option<Transform<Base, Camera>>,
     corrections: Corrections,
+    tree: StaticTree,
+    tree_problem: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -48,6 +51,16 @@ struct Raw {
     frames: Option<RawFrames>,
     camera_from_base: Option<RawPose>,
     base_from_camera: Option<RawPose>,
+    #[serde(default)]
+    static_transforms: Vec<RawFixed>,
+}
+
+#[derive(Deserialize)]
+struct RawFixed {
+    parent: String,
+    child: String,
+    translation_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
 }
 
 #[derive(Deserialize)]
@@ -90,7 +103,14 @@ impl SavedCalibration {
         let raw: Raw = json(file, text)?;
         let corrections: RawCorrections = json(file, text)?;
         let frames = raw.frames.ok_or_else(|| missing(file, "frames"))?;
+        // What others publish is no reason to withhold the pose; whoever exports it is told.
+        let (tree, tree_problem) = match tree(file, raw.static_transforms) {
+            Ok(tree) => (tree, None),
+            Err(error) => (StaticTree::empty(), Some(error.to_string())),
+        };
         Ok(Self {
+            tree,
+            tree_problem,
             camera_frame: match frames.camera.filter(|name| !name.is_empty()) {
                 Some(name) => Some(frame_name(file, "frames.camera", Some(name))?),
                 None => None,
@@ -114,6 +134,16 @@ impl SavedCalibration {
         &self.corrections
     }
 
+    /// The frames that do not move against the camera's or the base, as the recording told them.
+    pub fn tree(&self) -> &StaticTree {
+        &self.tree
+    }
+
+    /// Why what the recording told of its frames makes no tree; then [`Self::tree`] is empty.
+    pub fn tree_problem(&self) -> Option<&str> {
+        self.tree_problem.as_deref()
+    }
+
     /// Why it was refused; `None` if it is trusted.
     pub fn refused(&self) -> Option<&[String]> {
         self.refused.as_deref()
@@ -135,6 +165,16 @@ impl SavedCalibration {
             _ => self.base_from_camera.ok_or_else(|| ExportError::NoPose { file: file() }),
         }
     }
+}
+
+fn tree(file: &str, told: Vec<RawFixed>) -> Result<StaticTree, ExportError> {
+    let edges = told.into_iter().enumerate().map(|(index, edge)| {
+        let field = format!("static_transforms[{index}]");
+        let RawFixed { parent, child, translation_m, rotation_xyzw } = edge;
+        let parent_from_child = static_pose(file, &field, translation_m, rotation_xyzw)?;
+        Ok(StaticEdge { parent, child, parent_from_child })
+    });
+    StaticTree::from_edges(file, edges.collect::<Result<_, ExportError>>()?)
 }
 
 fn json<'de, T: Deserialize<'de>>(file: &str, text: &'de str) -> Result<T, ExportError> {

@@ -5,4 +5,5 @@ mod tf_message;
 mod tree;
 
 pub use read::MAX_TREE_BYTES;
+pub(super) use tf_message::pose as static_pose;
 pub use tree::{StaticEdge, StaticTree};

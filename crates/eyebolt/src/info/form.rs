@@ -31,6 +31,8 @@ pub struct Info {
     pub robot: Option<RobotFit>,
     /// Parts of the bag that are damaged and were passed over.
     pub damage: Vec<String>,
+    /// Whether it can be calibrated; what else could be better is advice.
+    pub ready: bool,
     /// What to do, most important first; empty if all is well.
     pub advice: Vec<String>,
 }
@@ -120,6 +122,19 @@ pub struct RobotFit {
     pub unknown_joints: Vec<String>,
     /// Joints recorded outside their limits.
     pub outside_limits: Vec<OutsideLimits>,
+    /// Joints of the arm that are named without saying where they are.
+    pub untold_joints: Vec<Untold>,
+}
+
+/// A joint that is named without saying where it is.
+#[derive(Clone, Debug, Serialize)]
+pub struct Untold {
+    /// The joint.
+    pub joint: String,
+    /// Number of frames at rest that are left out for it.
+    pub frames: usize,
+    /// What is wrong, and how often.
+    pub reason: String,
 }
 
 impl Info {

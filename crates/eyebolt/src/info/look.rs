@@ -2,12 +2,12 @@
 
 use super::advice;
 use super::depth::depth_statistics;
-use super::form::{Clock, Configuration, Dropped, Frames, Info, RobotFit, SCHEMA};
+use super::form::{Clock, Configuration, Dropped, Frames, Info, RobotFit, SCHEMA, Untold};
 use crate::joint_limits::WorstOutside;
-use crate::record::{Group, MOST_CONFIGURATIONS, RecordError, group_frames};
+use crate::record::{Group, Groups, MOST_CONFIGURATIONS, RecordError, group_frames};
 use eyebolt_recording::{FrameSource, Provenance, RecordingError};
 use eyebolt_robot::{Arm, JointPositions};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Frames that do not take part are listed one by one up to this.
 const MOST_LISTED: usize = 1000;
@@ -36,9 +36,10 @@ impl Info {
             configurations: configurations(source, arm)?,
             robot: arm.map(|arm| fit(source, arm)).transpose()?,
             damage: provenance.damage.clone(),
+            ready: false,
             advice: Vec::new(),
         };
-        info.advice = advice::advice(&info);
+        (info.ready, info.advice) = advice::advice(&info, source);
         Ok(info)
     }
 }
@@ -81,7 +82,7 @@ fn configurations(
     };
     if let Some(arm) = arm {
         match group_frames(source, arm, |_, _| {}) {
-            Ok(groups) => {
+            Ok(Groups { groups, .. }) => {
                 return Ok(groups.iter().map(|g: &Group| configuration(&g.frames)).collect());
             }
             Err(RecordError::Recording(error)) => return Err(error),
@@ -120,16 +121,31 @@ fn fit(source: &dyn FrameSource, arm: &Arm) -> Result<RobotFit, RecordingError> 
         assumed_joints: Vec::new(),
         unknown_joints: Vec::new(),
         outside_limits: Vec::new(),
+        untold_joints: Vec::new(),
     };
+    let untold = &source.provenance().untold_joints;
+    let mut missing: BTreeMap<&str, usize> = BTreeMap::new();
     let mut outside = WorstOutside::default();
     for (index, frame) in source.frame_names().iter().enumerate() {
         let joints = source.read_joints(index)?;
         outside.add(arm, frame, &joints);
         let lacking = |name: &&str| joints.get(name).is_none();
-        add_new(&mut fit.missing_joints, arm.required_joints().into_iter().filter(lacking));
+        for name in arm.required_joints().into_iter().filter(lacking) {
+            *missing.entry(name).or_insert(0) += 1;
+        }
         add_new(&mut fit.assumed_joints, arm.other_joints().into_iter().filter(lacking));
         let unknown = arm.unknown_joints(&joints);
         add_new(&mut fit.unknown_joints, unknown.iter().map(String::as_str));
+    }
+    for (name, frames) in missing {
+        match untold.get(name) {
+            Some(reason) => fit.untold_joints.push(Untold {
+                joint: name.to_owned(),
+                frames,
+                reason: reason.clone(),
+            }),
+            None => fit.missing_joints.push(name.to_owned()),
+        }
     }
     fit.outside_limits = outside.into_vec();
     Ok(fit)

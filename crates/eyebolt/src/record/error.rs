@@ -26,6 +26,16 @@ pub enum RecordError {
         /// What does not fit.
         source: KinematicsError,
     },
+    /// The recording names joints of the arm, and never says where they are.
+    #[error(
+        "frame {frame}: {reasons}; record a publisher that tells where every joint of the arm is"
+    )]
+    JointsNotTold {
+        /// Name of the first frame.
+        frame: String,
+        /// What is wrong with each joint.
+        reasons: String,
+    },
     /// A mask is not of the size of the images.
     #[error(
         "frame {frame}: frames.mask: {} x {} pixels, but the images are {} x {}; masks and clouds \

@@ -1,7 +1,7 @@
 //! From frames and an arm to observations.
 
 use super::background;
-use super::configurations::{Group, group_frames};
+use super::configurations::{Group, Groups, group_frames};
 use super::error::RecordError;
 use super::joints;
 use super::options::RecordOptions;
@@ -34,7 +34,8 @@ pub fn observe(
     options: &RecordOptions,
 ) -> Result<Observations, RecordError> {
     let mut outside = WorstOutside::default();
-    let groups = group_frames(source, arm, |frame, joints| outside.add(arm, frame, joints))?;
+    let Groups { groups, untold_frames } =
+        group_frames(source, arm, |frame, joints| outside.add(arm, frame, joints))?;
     let Some(first) = groups.first() else { return Err(RecordError::NoFrames) };
     let placed = PlacedArm::new(arm, &groups, cache)?;
     let chosen = most_spread(&placed.postures, options.most_configurations);
@@ -72,6 +73,7 @@ pub fn observe(
         assumed_joints: first.first.assumed_joints.clone(),
         outside_limits: outside.of_arm(arm),
         spare_configurations: groups.len() - chosen.len(),
+        untold_frames,
         arm: placed.model,
     })
 }

@@ -15,6 +15,8 @@ mod svg;
 mod template;
 mod uncertainty;
 
+pub use advice::remedies;
+
 use super::picture::Picture;
 use crate::answer::Answer;
 use crate::pipeline::Outcome;

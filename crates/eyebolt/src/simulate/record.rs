@@ -6,6 +6,7 @@ use super::error::SimulateError;
 use super::plan::Plan;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
+use super::static_frames::static_transforms;
 use super::timeline::{Event, Timeline, background_stamp_ns};
 use super::viewpoint::Viewpoint;
 use crate::progress::Progress;
@@ -32,10 +33,12 @@ impl Plan<'_> {
     ) -> Result<(), SimulateError> {
         let scenario = &self.scenario;
         let arm = scenario.arm;
+        let static_transforms = static_transforms(arm.robot(), FRAME_ID);
         let info = RecordingInfo {
             camera: &self.stated_camera,
             camera_frame_id: FRAME_ID,
             in_millimetres: scenario.sensor.in_millimetres,
+            static_transforms: &static_transforms,
             urdf: Some(scenario.urdf),
             base: Some(arm.base_name()),
             end_effector: Some(arm.end_effector_name()),

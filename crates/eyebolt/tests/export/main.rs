@@ -6,6 +6,7 @@ mod formats;
 mod hostile;
 mod json;
 mod names;
+mod own_tree;
 mod placements;
 mod poses;
 mod saved;

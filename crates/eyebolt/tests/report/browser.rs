@@ -33,7 +33,9 @@ fn the_view_turns_and_all_is_drawn_without_the_network() {
     for act in ["drag", "wheel", "pinch", "key", "colour", "robot", "camera", "configuration"] {
         assert!(share(act) > 0.001, "{act}: {found}");
     }
-    for quiet in ["hover", "reset"] {
+    // The wheel alone, and a finger up or down, are the page's.
+    assert_eq!((&found["wheel_scrolls"], &found["touch"]), (&json!(true), &json!("pan-y")));
+    for quiet in ["hover", "reset", "scroll"] {
         assert_eq!(found[quiet], 0, "{quiet}: {found}");
     }
     assert_eq!(found["problems"], json!([]));

@@ -160,3 +160,25 @@ fn the_bytes_are_the_same_again_and_on_any_number_of_threads() {
     assert!(bytes(1) == *PAGE);
     assert!(bytes(2) == *PAGE);
 }
+
+/// The page without these elements.
+fn without(page: &str, element: &str) -> String {
+    let (begin, end) = (format!("<{element}"), format!("</{element}>"));
+    let mut parts = page.split(&begin);
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + part.split_once(&end).map_or("", |(_, rest)| rest))
+}
+
+#[test]
+fn what_nobody_knows_is_no_word_of_programs() {
+    let (mut answer, outcome) = without_pose(&GOOD, all_reasons());
+    answer.frames.camera = None;
+    for row in &mut answer.configurations {
+        (row.used, row.reason, row.residual_mm) = (false, None, None);
+    }
+    for shown in [page(&answer, &outcome), PAGE.clone()] {
+        let shown = without(shown.split_once("</head>").unwrap().1, "script");
+        let words: Vec<_> = shown.split(|c: char| !c.is_alphabetic()).collect();
+        assert!(!words.contains(&"none") && !words.contains(&"None"), "{shown}");
+    }
+}

@@ -29,7 +29,11 @@
     pointer("pointerup", 380, 330, 0);
   });
   found.hover = await after(() => pointer("pointermove", 100, 100, 0));
-  found.wheel = await after(() => canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, cancelable: true })));
+  let scrolls = false;
+  found.scroll = await after(() => { scrolls = canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, cancelable: true })); });
+  found.wheel_scrolls = scrolls;
+  found.wheel = await after(() => canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, cancelable: true, ctrlKey: true })));
+  found.touch = getComputedStyle(canvas).touchAction;
   found.pinch = await after(() => {
     pointer("pointerdown", 300, 300, 1, 1);
     pointer("pointerdown", 400, 300, 1, 2);

@@ -74,6 +74,7 @@ pub fn all_reasons() -> Vec<Reason> {
     };
     vec![
         Reason::FewConfigurations { used: 2, needed: 3 },
+        Reason::DepthUnit { unit_m: 0.001, fitting_m: 0.0001 },
         Reason::NothingFound,
         Reason::OtherRobot { problem: "no joint called a & b".to_owned() },
         Reason::OutOfView,

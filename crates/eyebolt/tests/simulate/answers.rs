@@ -58,6 +58,7 @@ fn backgrounds_from_another_place_are_seen_through() {
         camera: &camera,
         camera_frame_id: "camera",
         in_millimetres: true,
+        static_transforms: &[],
         urdf: Some(shackle().urdf),
         base: Some("link0"),
         end_effector: Some("hand"),

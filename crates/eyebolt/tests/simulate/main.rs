@@ -12,6 +12,7 @@ mod joint_offsets;
 mod lab;
 mod labels;
 mod motion;
+mod other_unit;
 mod presets;
 mod recording;
 mod robot;

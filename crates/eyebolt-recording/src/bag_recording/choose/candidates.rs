@@ -12,6 +12,8 @@ pub(super) struct Wanted<'a> {
     pub(super) by: By,
     /// What it is, for messages.
     pub(super) what: &'a str,
+    /// Types of the messages that it may be on.
+    pub(super) types: &'a [&'a str],
     /// Its name, if it is named.
     pub(super) name: Option<&'a str>,
 }
@@ -24,6 +26,9 @@ pub(super) enum By {
     /// The bag itself, in this field.
     Bag(&'static str),
 }
+
+/// Topics that a message lists.
+const MOST_TOLD: usize = 20;
 
 /// The topics of the bag at `path`.
 #[derive(Clone, Copy)]
@@ -49,18 +54,19 @@ impl Candidates<'_> {
     /// The topic of the name wanted, else the only one that `fits`.
     pub(super) fn one(
         &self,
-        Wanted { by, what, name }: Wanted<'_>,
+        wanted: Wanted<'_>,
         fits: &dyn Fn(&TopicScan) -> bool,
     ) -> Result<Option<usize>, RecordingError> {
+        let Wanted { by, what, name, .. } = wanted;
         if let Some(name) = name {
-            return self.named(by, what, name, fits).map(Some);
+            return self.named(wanted, name, fits).map(Some);
         }
         let topics = self.topics.iter().enumerate();
         let mut found = topics.filter(|(_, topic)| fits(topic)).map(|(number, _)| number);
         match (found.next(), found.next()) {
             (Some(_), Some(_)) => {
                 let problem = format!("several topics have {what}");
-                Err(self.invalid(by, problem, self.fitting(fits)))
+                Err(self.invalid(by, problem, self.fitting(wanted, fits)))
             }
             (found, _) => Ok(found),
         }
@@ -68,22 +74,23 @@ impl Candidates<'_> {
 
     fn named(
         &self,
-        by: By,
-        what: &str,
+        wanted: Wanted<'_>,
         name: &str,
         fits: &dyn Fn(&TopicScan) -> bool,
     ) -> Result<usize, RecordingError> {
+        let Wanted { by, what, .. } = wanted;
         let problem = match self.topics.iter().position(|topic| topic.name == name) {
             Some(number) => match self.topics.get(number).filter(|topic| !fits(topic)) {
                 None => return Ok(number),
                 Some(topic) => {
                     let kind = &topic.message_type;
-                    format!("{name} is of type {kind} and has no {what} that can be read")
+                    let why = topic.flaw().map(|why| format!(": {why}")).unwrap_or_default();
+                    format!("{name} is of type {kind} and has no {what} that can be read{why}")
                 }
             },
             None => format!("there is no topic {name}"),
         };
-        Err(self.invalid(by, problem, self.fitting(fits)))
+        Err(self.invalid(by, problem, self.fitting(wanted, fits)))
     }
 
     /// As [`Self::one`], of what no recording is without.
@@ -93,8 +100,14 @@ impl Candidates<'_> {
         fits: &dyn Fn(&TopicScan) -> bool,
     ) -> Result<usize, RecordingError> {
         self.one(wanted, fits)?.ok_or_else(|| {
-            let problem = format!("no topic has {}", wanted.what);
-            let remedy = format!("Record it too; the bag has {}", self.all());
+            let of_type = self.of_type(wanted);
+            if of_type.is_empty() {
+                let problem = format!("no topic has {}", wanted.what);
+                let remedy = format!("Record it too; the bag has {}", self.all());
+                return self.invalid(wanted.by, problem, remedy);
+            }
+            let problem = format!("no topic has {} that can be used", wanted.what);
+            let remedy = format!("Record one that can: {}", of_type.join("; "));
             self.invalid(wanted.by, problem, remedy)
         })
     }
@@ -107,18 +120,36 @@ impl Candidates<'_> {
     }
 
     /// Says which topics could be meant.
-    pub(super) fn fitting(&self, fits: &dyn Fn(&TopicScan) -> bool) -> String {
+    pub(super) fn fitting(&self, wanted: Wanted<'_>, fits: &dyn Fn(&TopicScan) -> bool) -> String {
         let fitting: Vec<_> =
             self.topics.iter().filter(|t| fits(t)).map(|t| t.name.as_str()).collect();
-        match fitting.is_empty() {
-            true => format!("There is none that would do; the bag has {}", self.all()),
-            false => format!("Give one of {}", fitting.join(", ")),
+        let of_type = self.of_type(wanted);
+        match (fitting.is_empty(), of_type.is_empty()) {
+            (false, _) => format!("Give one of {}", fitting.join(", ")),
+            (true, false) => format!("There is none that would do: {}", of_type.join("; ")),
+            (true, true) => format!("There is none that would do; the bag has {}", self.all()),
         }
     }
 
+    /// The topics of the type that is looked for, with what is wrong with each.
+    fn of_type(&self, wanted: Wanted<'_>) -> Vec<String> {
+        let is = |topic: &&TopicScan| wanted.types.contains(&topic.message_type.as_str());
+        let told = |topic: &TopicScan| match topic.flaw() {
+            Some(why) => format!("{}: {why}", topic.name),
+            None => topic.name.clone(),
+        };
+        self.topics.iter().filter(is).map(told).collect()
+    }
+
+    /// All topics, as far as anybody reads on.
     fn all(&self) -> String {
-        let topics = self.topics.iter();
+        let topics = self.topics.iter().take(MOST_TOLD);
         let names: Vec<_> = topics.map(|t| format!("{} ({})", t.name, t.message_type)).collect();
-        if names.is_empty() { "no messages at all".to_owned() } else { names.join(", ") }
+        let more = self.topics.len().saturating_sub(MOST_TOLD);
+        match (names.is_empty(), more) {
+            (true, _) => "no messages at all".to_owned(),
+            (_, 0) => names.join(", "),
+            (_, more) => format!("{} and {more} more", names.join(", ")),
+        }
     }
 }

@@ -2,11 +2,15 @@
 
 use super::candidates::{By, Candidates, Wanted};
 use super::kinds::{
-    COMPRESSED, is_cloud, is_depth_image, is_intrinsics, is_no_depth, rank, siblings, size,
+    COMPRESSED, is_cloud, is_depth_image, is_intrinsics, is_no_depth, may_be_of, rank, siblings,
+    size,
 };
+use super::recommended;
 use crate::bag_recording::options::BagOptions;
 use crate::bag_recording::scan::TopicScan;
 use crate::error::RecordingError;
+use crate::message::types;
+use crate::provenance::DepthChoice;
 use eyebolt_robot::Input;
 
 const DEPTH: &str = "depth (Image in 16UC1 or 32FC1, compressedDepth, or PointCloud2)";
@@ -21,7 +25,8 @@ pub(super) fn background(
     known: Option<&str>,
 ) -> Result<Option<usize>, RecordingError> {
     let depth = options.depth_topic.as_deref();
-    let wanted = |by, name| Wanted { by, what: BACKGROUNDS, name: Some(name) };
+    let types = &[types::IMAGE, types::COMPRESSED_IMAGE];
+    let wanted = |by, name| Wanted { by, what: BACKGROUNDS, types, name: Some(name) };
     if let Some(name) = options.background_topic.as_deref() {
         let by = By::Input(Input::BACKGROUND_TOPIC);
         if depth == Some(name) {
@@ -37,12 +42,14 @@ pub(super) fn background(
     if options.partial { Ok(found.unwrap_or(None)) } else { found }
 }
 
-/// The topic of the frames.
+/// The topic of the frames; of several the one that they were made of is recommended, and taken if
+/// that is allowed.
 pub(super) fn range(
     candidates: &Candidates<'_>,
-    name: Option<&str>,
+    options: &BagOptions,
     background: Option<usize>,
-) -> Result<usize, RecordingError> {
+) -> Result<(usize, Option<DepthChoice>), RecordingError> {
+    let name = options.depth_topic.as_deref();
     let background = background.and_then(|number| Some(&candidates.topics.get(number)?.name));
     let is_no_depth = |name: &String| is_no_depth(name) || Some(name) == background;
     // A camera's depth image is often recorded beside the cloud that was made of it.
@@ -60,7 +67,29 @@ pub(super) fn range(
             good && !is_no_depth(&topic.name) && !twice(topic)
         }
     };
-    candidates.needed(Wanted { by: By::Input(Input::DEPTH_TOPIC), what: DEPTH, name }, &fits)
+    let fitting = candidates.topics.iter().enumerate().filter(|(_, topic)| fits(topic));
+    let names = fitting.clone().map(|(_, topic)| topic.name.as_str());
+    let by = By::Input(Input::DEPTH_TOPIC);
+    if name.is_none() && names.clone().count() > 1 {
+        let raw = recommended::raw(names.clone());
+        if options.any_depth {
+            let choice = raw.map_or(DepthChoice::First, |_| DepthChoice::Raw);
+            let taken = fitting.clone().find(|(_, topic)| raw.is_none_or(|raw| topic.name == raw));
+            if let Some((number, _)) = taken {
+                return Ok((number, Some(choice)));
+            }
+        }
+        let listed = names.collect::<Vec<_>>().join(", ");
+        let problem = format!("several topics have {DEPTH}: {listed}");
+        let remedy = match raw {
+            Some(raw) => format!("Give {raw}: the others were made of what it has"),
+            None => "Give one of them".to_owned(),
+        };
+        return Err(candidates.invalid(by, problem, remedy));
+    }
+    let types = &[types::IMAGE, types::COMPRESSED_IMAGE, types::CLOUD];
+    let number = candidates.needed(Wanted { by, what: DEPTH, types, name }, &fits)?;
+    Ok((number, None))
 }
 
 /// The intrinsics of the topic `depth`: beside it by ROS's convention, else the only ones of its
@@ -71,7 +100,7 @@ pub(super) fn camera_info(
     depth: &TopicScan,
 ) -> Result<Option<usize>, RecordingError> {
     let by = By::Input(Input::CAMERA_INFO_TOPIC);
-    let wanted = Wanted { by, what: INTRINSICS, name };
+    let wanted = Wanted { by, what: INTRINSICS, types: &[types::CAMERA_INFO], name };
     if name.is_some() {
         return candidates.one(wanted, &is_intrinsics);
     }
@@ -83,7 +112,7 @@ pub(super) fn camera_info(
     }
     let same = |topic: &TopicScan| {
         is_intrinsics(topic)
-            && (size(depth).is_none() || size(topic) == size(depth))
+            && size(depth).is_none_or(|size| may_be_of(topic, size))
             && (depth.frame_id.is_none() || topic.frame_id == depth.frame_id)
     };
     match candidates.one(wanted, &same)? {
@@ -93,7 +122,7 @@ pub(super) fn camera_info(
             let remedy = format!(
                 "Record its camera_info, or give it as a file with {}. {}",
                 Input::CAMERA_INFO,
-                candidates.fitting(&is_intrinsics)
+                candidates.fitting(wanted, &is_intrinsics)
             );
             Err(candidates.invalid(by, problem, remedy))
         }

@@ -1,6 +1,6 @@
 //! What a topic may be to a recording, by its type, its name and its pictures.
 
-use crate::bag_recording::scan::{Content, Intrinsics, PictureKind, TopicScan};
+use crate::bag_recording::scan::{Content, PictureKind, TopicScan};
 use crate::message::types;
 
 /// Pictures of one byte a pixel.
@@ -30,7 +30,11 @@ pub(super) fn is_mask(topic: &TopicScan) -> bool {
 }
 
 pub(super) fn is_color(topic: &TopicScan) -> bool {
-    encoding(topic).is_some_and(|encoding| COLORS.contains(&encoding))
+    encoding(topic).is_some_and(|encoding| COLORS.contains(&encoding)) || is_compressed_color(topic)
+}
+
+pub(super) fn is_compressed_color(topic: &TopicScan) -> bool {
+    matches!(pictures(topic), Some(PictureKind::CompressedColor))
 }
 
 pub(super) fn is_cloud(topic: &TopicScan) -> bool {
@@ -55,14 +59,22 @@ pub(super) fn is_intrinsics(topic: &TopicScan) -> bool {
 }
 
 /// Size of its pictures, or of those that it tells the intrinsics of.
-pub(super) fn size(topic: &TopicScan) -> Option<(u32, u32)> {
+pub(crate) fn size(topic: &TopicScan) -> Option<(u32, u32)> {
     match &topic.content {
         Content::Pictures(pictures) => match &pictures.kind {
             PictureKind::Image { size, .. } | PictureKind::Cloud { size } => Some(*size),
-            _ => None,
+            _ => pictures.compressed_size,
         },
-        Content::CameraInfo { first, .. } => first.as_ref().map(Intrinsics::size),
+        Content::CameraInfo { first, .. } => first.as_ref().map(|first| first.sizes()[1]),
         _ => None,
+    }
+}
+
+/// Whether intrinsics may be of pictures of that size.
+pub(super) fn may_be_of(topic: &TopicScan, size: (u32, u32)) -> bool {
+    match &topic.content {
+        Content::CameraInfo { first: Some(first), .. } => first.sizes().contains(&size),
+        _ => false,
     }
 }
 

@@ -19,17 +19,18 @@ pub(super) struct Joints<'a> {
 }
 
 impl<'a> Joints<'a> {
-    /// A joint that several tracks tell is taken from the one that tells most often: some programs
+    /// A joint that several tracks tell is taken from one that tells that something moves, as no
+    /// publisher of defaults does, and of several from the one that tells most often: some programs
     /// tell all joints once, when they start.
     pub(super) fn new(tracks: &[&'a Track]) -> Self {
         let mut sorted = tracks.to_vec();
-        sorted.sort_by_key(|track| std::cmp::Reverse(track.count()));
+        sorted.sort_by_key(|track| std::cmp::Reverse((track.moves(), track.count())));
         let mut known = BTreeSet::new();
         let mut taken = |track: &'a Track| -> Vec<usize> {
             let names = track.names().iter().enumerate();
             names.filter(|(_, name)| known.insert(*name)).map(|(index, _)| index).collect()
         };
-        let live = sorted.first().is_some_and(|track| track.count() > 1);
+        let live = sorted.iter().any(|track| track.count() > 1);
         let tracks = sorted.into_iter().map(|track| (track, taken(track)));
         Self { tracks: tracks.filter(|(_, taken)| !taken.is_empty()).collect(), live }
     }
@@ -48,7 +49,13 @@ impl<'a> Joints<'a> {
             // told last: drivers of grippers do that.
             let sparse =
                 self.live && (number > 0 || track.count() == 1) && track.is_sparse(ON_CHANGE_NS);
-            let all = if sparse { track.held(stamp_ns) } else { positions_at(track, stamp_ns)? };
+            let mut all =
+                if sparse { track.held(stamp_ns) } else { positions_at(track, stamp_ns)? };
+            for joint in taken {
+                if let Some(position) = all.get_mut(*joint).filter(|position| position.is_nan()) {
+                    *position = track.across(*joint, stamp_ns).unwrap_or(f64::NAN);
+                }
+            }
             let (motion, most) = track.motion(taken, from_ns, to_ns, DENSE_NS);
             if let Some(place) = taken.iter().position(|index| *index == most)
                 && motion > state.motion
@@ -63,7 +70,7 @@ impl<'a> Joints<'a> {
 
 /// Joints at one time.
 pub(super) struct State {
-    /// In the order of [`Joints::names`].
+    /// In the order of [`Joints::names`]; NaN of joints that nobody told.
     pub(super) positions: Vec<f64>,
     /// How far the joint that moves most moves meanwhile, radians or metres.
     pub(super) motion: f64,

@@ -1,13 +1,18 @@
 //! Joint states as a scan meets them.
 
+mod untold;
+
 use crate::bag_recording::track::Track;
 use crate::message::{JointStateMessage, WireProblem};
+pub(crate) use untold::Untold;
+use untold::Why;
 
 /// Positions of the joints of one topic: one track for each set of names, for each publisher tells
 /// its own joints.
 #[derive(Debug, Default)]
 pub(crate) struct JointTracks {
     tracks: Vec<Track>,
+    untold: Untold,
     /// Positions in the order of a track.
     sorted: Vec<f64>,
 }
@@ -25,71 +30,105 @@ impl JointTracks {
         &self.tracks
     }
 
+    /// Joints that messages name without a position that can be used.
+    pub(crate) fn untold(&self) -> &Untold {
+        &self.untold
+    }
+
     pub(super) fn finish(&mut self) {
         self.tracks.iter_mut().for_each(Track::finish);
     }
 
-    /// Takes in the positions of one message.
+    /// Takes in the positions of one message. What it does not tell of one joint costs the others
+    /// nothing.
     pub(super) fn add(
         &mut self,
         stamp_ns: i64,
         message: &JointStateMessage<'_>,
     ) -> Result<(), WireProblem> {
-        let (names, positions) = (&message.names, &message.positions);
-        if positions.is_empty() {
+        if message.positions.is_empty() {
             return Ok(());
         }
-        for (name, position) in names.iter().zip(positions) {
-            if !position.is_finite() || position.abs() > FARTHEST {
-                let problem = format!("the position of {name} is {position}");
-                return Err(WireProblem::new("position", problem));
-            }
+        let same = |track: &Track| track.names().iter().eq(message.names.iter());
+        if let Some(number) = self.tracks.iter().position(same) {
+            let positions = message.names.iter().enumerate().map(|(index, name)| {
+                usable(message.positions.get(index)).map_err(|why| self.untold.add(name, why))
+            });
+            self.sorted = positions.map(|told| told.unwrap_or(f64::NAN)).collect();
+            return self.push(number, stamp_ns);
         }
-        let same = |track: &&mut Track| track.names().iter().eq(names.iter());
-        if let Some(track) = self.tracks.iter_mut().find(same) {
-            track.push(stamp_ns, positions);
+        let told = self.told(message)?;
+        if told.iter().all(|(_, position)| position.is_nan()) {
             return Ok(());
         }
         // Some publishers tell the same joints in another order every time.
-        for track in &mut self.tracks {
-            if sort(track.names(), message, &mut self.sorted) {
-                track.push(stamp_ns, &self.sorted);
-                return Ok(());
-            }
-        }
-        let mut track = self.track(names)?;
-        track.push(stamp_ns, positions);
-        self.tracks.push(track);
-        Ok(())
-    }
-
-    /// A track of joints that have none yet.
-    fn track(&self, names: &[&str]) -> Result<Track, WireProblem> {
-        let refused = |problem: String| Err(WireProblem::new("name", problem));
-        if names.len() > MOST_JOINTS {
-            return refused(format!("{} joints, more than {MOST_JOINTS}", names.len()));
-        }
-        for (index, name) in names.iter().enumerate() {
-            if names.iter().take(index).any(|earlier| earlier == name) {
-                return refused(format!("{name} stands there twice"));
+        for number in 0..self.tracks.len() {
+            if sort(self.tracks.get(number).map_or(&[], Track::names), &told, &mut self.sorted) {
+                return self.push(number, stamp_ns);
             }
         }
         if self.tracks.len() >= MOST_TRACKS {
-            return refused(format!("more than {MOST_TRACKS} sets of joints"));
+            let problem = format!("more than {MOST_TRACKS} sets of joints");
+            return Err(WireProblem::new("name", problem));
         }
-        Ok(Track::new(names.iter().map(|name| (*name).to_owned()).collect()))
+        self.tracks.push(Track::new(told.iter().map(|(name, _)| (*name).to_owned()).collect()));
+        self.sorted = told.into_iter().map(|(_, position)| position).collect();
+        self.push(self.tracks.len() - 1, stamp_ns)
+    }
+
+    /// Adds the sorted positions to a track, if there are any.
+    fn push(&mut self, number: usize, stamp_ns: i64) -> Result<(), WireProblem> {
+        let Some(track) = self.tracks.get_mut(number) else { return Ok(()) };
+        if self.sorted.iter().any(|position| !position.is_nan()) {
+            track.push(stamp_ns, &self.sorted);
+        }
+        Ok(())
+    }
+
+    /// Every name once, with its position; NaN where it has none that can be used.
+    fn told<'a>(
+        &mut self,
+        message: &JointStateMessage<'a>,
+    ) -> Result<Vec<(&'a str, f64)>, WireProblem> {
+        if message.names.len() > MOST_JOINTS {
+            let problem = format!("{} joints, more than {MOST_JOINTS}", message.names.len());
+            return Err(WireProblem::new("name", problem));
+        }
+        let mut told: Vec<(&str, f64)> = Vec::with_capacity(message.names.len());
+        for (index, name) in message.names.iter().copied().enumerate() {
+            let position = usable(message.positions.get(index));
+            match told.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, known)) if Ok(*known) == position => {}
+                Some((_, known)) => {
+                    *known = f64::NAN;
+                    self.untold.add(name, Why::Twice);
+                }
+                None => told.push((
+                    name,
+                    position.map_err(|why| self.untold.add(name, why)).unwrap_or(f64::NAN),
+                )),
+            }
+        }
+        Ok(told)
+    }
+}
+
+/// The position, if a joint can be there.
+fn usable(position: Option<&f64>) -> Result<f64, Why> {
+    match position {
+        None => Err(Why::ListEnds),
+        Some(position) if position.is_finite() && position.abs() <= FARTHEST => Ok(*position),
+        Some(position) => Err(Why::NoPosition(*position)),
     }
 }
 
 /// Puts positions into the order of `names`; whether the message has exactly these.
-fn sort(names: &[String], message: &JointStateMessage<'_>, sorted: &mut Vec<f64>) -> bool {
-    if names.len() != message.names.len() {
+fn sort(names: &[String], told: &[(&str, f64)], sorted: &mut Vec<f64>) -> bool {
+    if names.len() != told.len() {
         return false;
     }
-    let position = |name: &String| {
-        let at = message.names.iter().position(|other| other == name)?;
-        message.positions.get(at).copied()
-    };
+    let position =
+        |name: &String| told.iter().find(|(other, _)| other == name).map(|(_, position)| *position);
     sorted.clear();
     sorted.extend(names.iter().map_while(position));
     sorted.len() == names.len()

@@ -12,6 +12,8 @@ pub(crate) struct Pictures {
     pub(crate) kind: PictureKind,
     /// All, whether of use or not, in the order of the bag.
     pub(crate) frames: Vec<FrameEntry>,
+    /// Width and height of the first one that is compressed, where it tells.
+    pub(crate) compressed_size: Option<(u32, u32)>,
     /// Some pixels of the last depth image.
     samples: Vec<f32>,
     /// How many of them differ from those before, until it is noted.
@@ -81,7 +83,8 @@ const MOST_FRAMES: usize = 1 << 20;
 impl Default for Pictures {
     fn default() -> Self {
         let kind = PictureKind::Unknown;
-        Self { kind, frames: Vec::new(), samples: Vec::new(), change: f32::NAN }
+        let (frames, samples) = (Vec::new(), Vec::new());
+        Self { kind, frames, compressed_size: None, samples, change: f32::NAN }
     }
 }
 
@@ -146,10 +149,16 @@ impl Pictures {
                 let cloud = CloudMessage::read(reader)?;
                 (PictureKind::Cloud { size: (cloud.width, cloud.height) }, cloud.has_point()?)
             }
-            _ => match CompressedImageMessage::read(reader)?.is_depth() {
-                true => (PictureKind::CompressedDepth, true),
-                false => (PictureKind::CompressedColor, true),
-            },
+            _ => {
+                let picture = CompressedImageMessage::read(reader)?;
+                if self.compressed_size.is_none() {
+                    self.compressed_size = picture.size();
+                }
+                match picture.is_depth() {
+                    true => (PictureKind::CompressedDepth, true),
+                    false => (PictureKind::CompressedColor, true),
+                }
+            }
         };
         match &self.kind {
             PictureKind::Unknown => self.kind = kind,
@@ -166,7 +175,8 @@ impl Pictures {
 }
 
 impl PictureKind {
-    fn text(&self) -> String {
+    /// What it is, for messages.
+    pub(super) fn text(&self) -> String {
         match self {
             Self::Image { encoding, size } => format!("{} x {} in {encoding}", size.0, size.1),
             Self::CompressedDepth => "compressed depth".to_owned(),

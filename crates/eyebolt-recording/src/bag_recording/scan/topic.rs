@@ -1,6 +1,6 @@
 //! What one topic is to a recording.
 
-use super::joints::JointTracks;
+use super::joints::{JointTracks, Untold};
 use super::pictures::{FrameEntry, PictureKind, Pictures};
 use crate::bag::{Encoding, Locator, Message};
 use crate::bag_recording::stamps::Stamps;
@@ -51,18 +51,26 @@ pub(crate) enum Content {
 /// Intrinsics, to be compared.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Intrinsics {
+    /// Of the sensor.
     size: (u32, u32),
+    /// Of the pictures, which may be binned, or of a part of the sensor.
+    seen: (u32, u32),
     numbers: Vec<f64>,
 }
 
 impl Intrinsics {
     fn new(info: &CameraInfoMessage<'_>) -> Self {
         let numbers = info.k.iter().chain(&info.p).chain(&info.d).copied().collect();
-        Self { size: (info.width, info.height), numbers }
+        let [_, _, height, width] = info.roi;
+        let whole = (info.width, info.height);
+        let part = if width > 0 && height > 0 { (width, height) } else { whole };
+        let [across, down] = info.binning.map(|binning| binning.max(1));
+        Self { size: whole, seen: (part.0 / across, part.1 / down), numbers }
     }
 
-    pub(crate) fn size(&self) -> (u32, u32) {
-        self.size
+    /// Width and height of the sensor, and of the pictures where these are others.
+    pub(crate) fn sizes(&self) -> [(u32, u32); 2] {
+        [self.size, self.seen]
     }
 }
 
@@ -133,6 +141,30 @@ impl TopicScan {
         match &self.content {
             Content::Joints(joints) => joints.tracks(),
             _ => &[],
+        }
+    }
+
+    /// Joints that its messages name without a position that can be used; `None` of other topics.
+    pub(crate) fn untold(&self) -> Option<&Untold> {
+        match &self.content {
+            Content::Joints(joints) => Some(joints.untold()),
+            _ => None,
+        }
+    }
+
+    /// What it has, or what is wrong with it, where nothing can be made of it.
+    pub(crate) fn flaw(&self) -> Option<String> {
+        let unreadable = self.first_problem.as_ref().filter(|_| self.unreadable == self.count);
+        if let Some((_, WireProblem { field, problem })) = unreadable {
+            return Some(format!("{field}: {problem}"));
+        }
+        match &self.content {
+            Content::Pictures(pictures) => Some(pictures.kind.text()),
+            Content::Joints(joints) if joints.tracks().is_empty() => {
+                let first = joints.untold().reasons(self.count).next().map(|(_, reason)| reason);
+                Some(first.unwrap_or_else(|| "its messages have no positions".to_owned()))
+            }
+            _ => None,
         }
     }
 

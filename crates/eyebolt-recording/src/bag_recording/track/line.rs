@@ -7,7 +7,7 @@ pub(super) struct Line {
     joints: usize,
     /// Nanoseconds, rising.
     stamps_ns: Vec<i64>,
-    /// Positions at the stamps.
+    /// Positions at the stamps; NaN where a joint was not told.
     positions: Vec<f64>,
     /// Longest time without a sample on the way to each stamp, nanoseconds.
     gaps_ns: Vec<i64>,
@@ -17,6 +17,11 @@ impl Line {
     /// A line of so many joints that has no turns yet.
     pub(super) fn new(joints: usize) -> Self {
         Self { joints, stamps_ns: Vec::new(), positions: Vec::new(), gaps_ns: Vec::new() }
+    }
+
+    /// Positions at one time.
+    pub(super) fn joints(&self) -> usize {
+        self.joints
     }
 
     /// Goes on to a later stamp.
@@ -91,10 +96,41 @@ impl Line {
             .min_by_key(|(stamp, _)| stamp.abs_diff(stamp_ns))
     }
 
-    /// The turn before `stamp_ns`, else the first one: what was told last.
+    /// Positions at the turn before `stamp_ns`, else at the first one: what was told last, of each
+    /// joint.
     pub(super) fn held(&self, stamp_ns: i64) -> Vec<f64> {
         let after = self.stamps_ns.partition_point(|stamp| *stamp <= stamp_ns);
-        self.at_turn(after.saturating_sub(1)).to_vec()
+        let mut held = self.at_turn(after.saturating_sub(1)).to_vec();
+        for (joint, position) in held.iter_mut().enumerate().filter(|(_, p)| p.is_nan()) {
+            let before = self.told(joint, (0..after).rev());
+            let told = before.or_else(|| self.told(joint, after..self.turns()));
+            *position = told.map_or(f64::NAN, |(_, told)| told);
+        }
+        held
+    }
+
+    /// Where `joint` was told last before `stamp_ns`, and first after it: stamps and positions.
+    pub(super) fn told_around(&self, joint: usize, stamp_ns: i64) -> Option<[(i64, f64); 2]> {
+        let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
+        Some([self.told(joint, (0..after).rev())?, self.told(joint, after..self.turns())?])
+    }
+
+    /// Stamp and position of `joint` at the first of `turns` that has one.
+    fn told(&self, joint: usize, mut turns: impl Iterator<Item = usize>) -> Option<(i64, f64)> {
+        turns.find_map(|turn| {
+            let position = self.at_turn(turn).get(joint).copied().filter(|p| !p.is_nan())?;
+            Some((*self.stamps_ns.get(turn)?, position))
+        })
+    }
+
+    /// Whether some joint is further than `still` from where it was at the first turn.
+    pub(super) fn moves(&self, still: f64) -> bool {
+        let first = self.at_turn(0);
+        let far = |turn: usize| {
+            let steps = first.iter().zip(self.at_turn(turn)).map(|(a, b)| (a - b).abs());
+            steps.fold(0.0, f64::max) > still
+        };
+        (1..self.turns()).any(far)
     }
 }
 

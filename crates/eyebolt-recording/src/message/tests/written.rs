@@ -57,10 +57,11 @@ proptest! {
     fn cameras(
         size in any::<(u32, u32)>(), model in "[a-z_]{0,20}", d in prop::collection::vec(number(), 0..9),
         k in numbers::<9>(), r in numbers::<9>(), p in numbers::<12>(),
+        binning in any::<[u32; 2]>(), roi in any::<[u32; 4]>(), do_rectify in any::<bool>(),
     ) {
         let header = Header { stamp_ns: 7, frame_id: "optical" };
         let (height, width) = size;
-        let camera = CameraInfoMessage { header, height, width, distortion_model: &model, d, k, r, p };
+        let camera = CameraInfoMessage { header, height, width, distortion_model: &model, d, k, r, p, binning, roi, do_rectify };
         let bytes = camera.write();
         prop_assert_eq!(CameraInfoMessage::read(&mut reader(&bytes)), Ok(camera));
     }

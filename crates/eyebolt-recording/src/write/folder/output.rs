@@ -68,9 +68,10 @@ impl<'a> Output<'a> {
         }
     }
 
-    pub(super) fn joint_row(&mut self, frame: &Frame) -> Result<(), WriteError> {
+    /// Writes the positions of the joints `names`, which are the same for all frames.
+    pub(super) fn joint_row(&mut self, frame: &Frame, names: &[String]) -> Result<(), WriteError> {
         if self.joints.is_none() {
-            let names: Vec<String> = frame.joints.iter().map(|(name, _)| name.to_owned()).collect();
+            let names = names.to_vec();
             let mut table = csv::Writer::from_writer(Vec::new());
             let header = std::iter::once("frame").chain(names.iter().map(String::as_str));
             table.write_record(header).map_err(|error| self.failed(JOINTS, error.into()))?;

@@ -87,7 +87,7 @@ fn edge(file: &str, index: usize, stamped: Stamped) -> Result<StaticEdge, Export
 }
 
 /// The pose in `field` of a message, if tf2 would take it.
-pub(super) fn pose(
+pub(in crate::export) fn pose(
     file: &str,
     field: &str,
     translation_m: [f64; 3],

@@ -121,8 +121,30 @@ impl StaticTree {
 
     /// The frame above `frame` that has no parent here; `frame` itself if it has none.
     pub fn root<'t>(&'t self, frame: &'t FrameName) -> &'t FrameName {
+        self.above(frame).last().unwrap_or(frame)
+    }
+
+    /// `frame` and those above it, up to the root.
+    fn above<'t>(&'t self, frame: &'t FrameName) -> impl Iterator<Item = &'t FrameName> {
         // There are no cycles, so this ends.
-        std::iter::successors(Some(frame), |frame| self.parent(frame)).last().unwrap_or(frame)
+        std::iter::successors(Some(frame), |frame| self.parent(frame))
+    }
+
+    /// The tree without the transform that places the frames of `optical` among those of `base`, and
+    /// that transform's parent and child: the child is the root of the camera's frames, below the
+    /// last frame that both share. `None` where nothing connects them, or the base hangs on the
+    /// camera.
+    pub(in crate::export) fn cut_between(
+        &self,
+        base: &FrameName,
+        optical: &FrameName,
+    ) -> Option<(Self, FrameName, FrameName)> {
+        let of_base: BTreeSet<&FrameName> = self.above(base).collect();
+        let child = self.above(optical).take_while(|frame| !of_base.contains(frame)).last()?;
+        let parent = self.parent(child)?;
+        let mut cut = self.clone();
+        cut.edges.remove(child);
+        Some((cut, parent.clone(), child.clone()))
     }
 
     /// All edges: child, parent, `parent_from_child`.

@@ -3,14 +3,19 @@
 use crate::answer::Answer;
 use crate::calibrate::Reason;
 
-/// What to do about `reason`, the likeliest cause first. The reason's own sentence names the cause.
-pub(super) fn remedies(reason: &Reason) -> &'static [&'static str] {
+/// What to do about `reason`, the likeliest cause first; inputs are called arguments, and what is shown
+/// in a report is `below`. The reason's own sentence names the cause.
+pub fn remedies(reason: &Reason) -> &'static [&'static str] {
     match reason {
         Reason::FewConfigurations { .. } => &[
             "Record five configurations or more, each with the arm at rest for a second or two.",
             "Move several joints by tens of degrees between them; frames with the arm in the same place \
              count once.",
             "See below which configurations were dropped, and why.",
+        ],
+        Reason::DepthUnit { .. } => &[
+            "Give the unit with argument `depth_unit`, or set depth_unit in recording.toml, and calibrate again.",
+            "The driver's documentation says what one is (depth scale, depth units).",
         ],
         Reason::NothingFound => &[
             "Check with `eyebolt info` that the frames have depth where the arm is.",

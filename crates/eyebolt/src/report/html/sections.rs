@@ -9,7 +9,7 @@ use super::leftovers::Leftover;
 use super::spread::Spread;
 use crate::answer::Answer;
 use crate::calibrate::Verdict;
-use crate::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};
+use crate::export::{Format, Note, Placement, SavedCalibration, Wanted};
 use crate::pipeline::Outcome;
 use eyebolt_geometry::{CoordinateFrame, Transform};
 use eyebolt_registration::OUTLINES;
@@ -75,10 +75,24 @@ pub(super) fn command(answer: &Answer) -> Option<Value> {
     let saved = SavedCalibration::parse("the answer", &answer.to_json()).ok()?;
     let optical = answer.frames.camera.as_deref().unwrap_or(UNNAMED);
     let wanted = Wanted { optical: Some(optical), ..Wanted::default() };
-    let placement = Placement::find(&saved, &StaticTree::empty(), &wanted).ok()?;
+    let placement = Placement::of_recording(&saved, &wanted).ok()?;
     let text = String::from_utf8(Format::Tf2.write(&placement, "eyebolt")).ok()?;
-    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
-    Some(context! { text => lines.join("\n"), unnamed => answer.frames.camera.is_none() })
+    let mut lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    let known = !saved.tree().is_empty();
+    if !known {
+        // It goes where the command is copied to.
+        lines
+            .insert(0, "# Only if nothing else publishes a parent of the child frame (see below).");
+    }
+    let note = placement.notes.iter().find(|note| matches!(note, Note::Replaces { .. }));
+    Some(context! {
+        text => lines.join("\n"),
+        unnamed => answer.frames.camera.is_none(),
+        known => known,
+        root => placement.child.as_str(),
+        is_optical => placement.child_is_optical,
+        note => note.map(ToString::to_string),
+    })
 }
 
 /// What became of each configuration.

@@ -24,6 +24,11 @@ pub(super) fn render(context: Value) -> String {
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     // Of the answer, what it leaves out of its file may be asked for, but not shown.
     environment.set_undefined_behavior(UndefinedBehavior::SemiStrict);
+    // A number that nobody has is a dash: `none` is a word of programs.
+    environment.set_formatter(|out, state, value| match value.is_none() {
+        true => out.write_str("–").map_err(minijinja::Error::from),
+        false => minijinja::escape_formatter(out, state, value),
+    });
     environment.add_filter("fixed", |value: f64, decimals: usize| format!("{value:.decimals$}"));
     environment.add_filter("signed", signed);
     let column = |value: f64, width: usize, decimals: usize| format!("{value:>width$.decimals$}");

@@ -219,6 +219,15 @@
       element.style.left = `${50 + (50 * x) / w}%`;
       element.style.top = `${50 - (50 * y) / w}%`;
     }
+    // Of names that would lie on each other the first is shown.
+    const taken = [];
+    for (const { element } of names) {
+      if (element.hidden) continue;
+      const own = element.getBoundingClientRect();
+      const lies = (other) => own.left < other.right && other.left < own.right && own.top < other.bottom && other.top < own.bottom;
+      element.style.visibility = taken.some(lies) ? "hidden" : "visible";
+      if (element.style.visibility === "visible") taken.push(own);
+    }
   };
   const draw = () => {
     const scale = window.devicePixelRatio || 1;
@@ -305,7 +314,9 @@
   });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => fingers.delete(event.pointerId));
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  // The wheel scrolls the page; with ctrl, which browsers also tell of a pinch on a touchpad, it zooms.
   canvas.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
     zoom(Math.exp(0.0012 * event.deltaY * (event.deltaMode ? 30 : 1)));
     redraw();
