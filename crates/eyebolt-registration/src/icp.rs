@@ -51,8 +51,8 @@ pub struct Icp {
     pub stop: StopReason,
 }
 
-/// Steps shorter than this are negligible, metres and radians.
-const NEGLIGIBLE: f64 = 2e-5;
+/// Steps shorter than this are negligible, metres and radians: points at the edge of being seen come and go.
+const NEGLIGIBLE: f64 = 5e-5;
 /// By which the scale falls from step to step.
 const FALL: f64 = 0.6;
 /// Points farther away than so many scales have no say that matters.
