@@ -24,12 +24,13 @@ mod second_arm;
 mod solids;
 mod stage;
 mod surroundings;
+mod table;
 mod timeline;
 mod true_arm;
 mod true_view;
 mod viewpoint;
 
-pub(crate) use body::rests;
+pub(crate) use body::{placed_links, rests};
 pub use error::SimulateError;
 pub use faults::Faults;
 pub use lab::{Lab, SecondArm};

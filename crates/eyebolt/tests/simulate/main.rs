@@ -18,4 +18,5 @@ mod robot;
 mod secrets;
 mod shapes;
 mod stage;
+mod stands;
 mod surroundings;
