@@ -1,9 +1,9 @@
 //! `eyebolt export`.
 
 use crate::ending::Ending;
-use crate::inputs::packages;
 use crate::names;
 use crate::output;
+use crate::robots::packages;
 use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use eyebolt::export::{Format, Placement, SavedCalibration, StaticTree, Wanted};

@@ -13,6 +13,7 @@ mod logging;
 mod names;
 mod output;
 mod progress;
+mod robots;
 mod segment;
 mod shell;
 mod simulate;

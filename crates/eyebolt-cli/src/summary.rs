@@ -30,9 +30,15 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let _ =
             writeln!(text, "  stamps of depth and joints are {seconds:.3} s apart: made up for");
     }
-    if !answer.assumed_joints.is_empty() {
-        let joints = answer.assumed_joints.join(", ");
-        let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
+    if !answer.unplaced_joints.is_empty() {
+        let joints = answer.unplaced_joints.join(", ");
+        let _ = writeln!(text, "  not recorded, so that their links took no part: {joints}");
+    }
+    for (joint, position) in &answer.stated_joints {
+        let _ = writeln!(text, "  {joint} stands at {position}, as --joint says");
+    }
+    for part in &answer.left_out {
+        let _ = writeln!(text, "  {}", part);
     }
     for finding in answer.findings() {
         let _ = writeln!(text, "  {finding}");
@@ -52,6 +58,9 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
              where they put it"
         );
     }
+    if let Some(guessed) = guessed(answer) {
+        let _ = writeln!(text, "  {guessed}");
+    }
     let _ = write!(text, "\nwritten to {}", path.display());
     if let (Some(first), Some(folder)) =
         (pictures.first(), pictures.first().and_then(|p| p.parent()))
@@ -65,6 +74,17 @@ pub fn text(answer: &Answer, path: &Path, pictures: &[PathBuf], report: Option<&
         let _ = write!(text, "\nreport in {}", report.display());
     }
     text
+}
+
+/// Which links were guessed, and how to name others.
+fn guessed(answer: &Answer) -> Option<String> {
+    let frames = &answer.frames;
+    let link = |name: &&str| match *name {
+        "base" => format!("base {} (--base)", frames.base),
+        _ => format!("end-effector {} (--end-effector)", frames.end_effector),
+    };
+    let links: Vec<String> = frames.guessed.iter().map(link).collect();
+    (!links.is_empty()).then(|| format!("guessed, since nobody named them: {}", links.join(", ")))
 }
 
 fn verdict(text: &mut String, answer: &Answer) -> std::fmt::Result {

@@ -15,6 +15,7 @@ mod outcome;
 mod program;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;
+mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
 mod simulate;

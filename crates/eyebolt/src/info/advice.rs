@@ -1,7 +1,7 @@
 //! What to do about what is not as it should be.
 
 use super::form::Info;
-use eyebolt_robot::Input;
+use eyebolt_robot::{Input, joint_prefix};
 
 /// Fewer configurations are refused; and as many make a good answer.
 const FEWEST: usize = 3;
@@ -40,18 +40,25 @@ fn robot(info: &Info, advice: &mut Vec<String>) {
         return;
     };
     if !robot.missing_joints.is_empty() {
+        let prefix = joint_prefix(&robot.missing_joints, &info.joints);
+        let prefix = prefix.map_or(String::new(), |prefix| {
+            format!("; their names differ by `{prefix}`: give {} {prefix}", Input::JOINT_PREFIX)
+        });
         advice.push(format!(
             "joint {} of {} not recorded: record these joint states, or give the URDF of the robot \
-             that was recorded",
+             that was recorded{}",
             robot.missing_joints.join(", "),
             if robot.missing_joints.len() == 1 { "the arm is" } else { "the arm are" },
+            prefix
         ));
     }
     advice.extend(robot.outside_limits.iter().map(ToString::to_string));
-    if !robot.assumed_joints.is_empty() {
+    if !robot.unplaced_joints.is_empty() {
         advice.push(format!(
-            "joint {} outside the arm's chain not recorded: taken at the lower limit",
-            robot.assumed_joints.join(", ")
+            "joint {} outside the arm's chain not recorded: its links take no part, unless {} says where it \
+             stands",
+            robot.unplaced_joints.join(", "),
+            Input::JOINT
         ));
     }
 }

@@ -43,17 +43,17 @@ pub(crate) fn group_frames(
 pub(crate) struct Placement {
     pub(crate) base_from_links: LinkPoses,
     pub(crate) base_from_end_effector: Transform<Base, EndEffector>,
-    pub(crate) assumed_joints: Vec<String>,
+    pub(crate) unplaced_joints: Vec<String>,
     pub(crate) joints: JointPositions,
 }
 
 fn place(arm: &Arm, frame: &str, joints: &JointPositions) -> Result<Placement, RecordError> {
     let failed = |source| RecordError::Kinematics { frame: frame.to_owned(), source };
-    let poses = arm.link_poses_with_defaults(joints).map_err(failed)?;
+    let poses = arm.known_link_poses(joints).map_err(failed)?;
     Ok(Placement {
         base_from_links: poses.base_from_links,
         base_from_end_effector: arm.base_from_end_effector(joints).map_err(failed)?,
-        assumed_joints: poses.defaulted_joints,
+        unplaced_joints: poses.unplaced_joints,
         joints: joints.clone(),
     })
 }
