@@ -1,4 +1,4 @@
-//! Meshes in STL, OBJ and DAE.
+//! Meshes in STL, OBJ, DAE and glTF.
 #![no_main]
 
 use eyebolt_fuzz::file;
@@ -7,7 +7,7 @@ use eyebolt_robot::{Body, Shape, load_body};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    for name in ["mesh.stl", "mesh.obj", "mesh.dae"] {
+    for name in ["mesh.stl", "mesh.obj", "mesh.dae", "mesh.glb", "mesh.gltf"] {
         let path = file(name, bytes);
         let shape = Shape::Mesh { path, scale: [1.0, -2.0, 1e-3] };
         let Ok(mesh) = load_body(&Body { link_from_body: Transform::identity(), shape }) else {

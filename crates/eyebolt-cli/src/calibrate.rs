@@ -77,6 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         check_report(report, &destination, arguments.force)?;
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
+    let recording = arguments.robot.noted(recording, &arm)?;
     let request = Request {
         cache: arguments.cache.open(),
         options: RecordOptions {
@@ -98,6 +99,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let timing = bar.finish();
     let mut answer = Answer::new(&request, &outcome);
     answer.timing_ms = arguments.timing.then_some(timing);
+    answer.stated_joints = arguments.robot.stated_joints().collect();
+    for part in &mut answer.left_out {
+        *part = names::in_flags(part);
+    }
     let trusted = outcome.calibration.verdict == Verdict::Trusted;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
     let report = save_report(arguments, &answer, &outcome, &pictures);

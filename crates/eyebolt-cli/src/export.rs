@@ -1,9 +1,9 @@
 //! `eyebolt export`.
 
 use crate::ending::Ending;
-use crate::inputs::packages;
 use crate::names;
 use crate::output::{self, STDOUT};
+use crate::robots::packages;
 use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use eyebolt::export::{Format, Note, Placement, SavedCalibration, StaticTree, Wanted};

@@ -50,6 +50,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         }
         Err(error) => return Err(error),
     };
+    let recording = match &arm {
+        Some(arm) => arguments.robot.noted(recording, arm)?,
+        None => recording,
+    };
     let mut info = Info::new(recording.source(), arm.as_ref())?;
     if let Some(problem) = problem {
         // Instead of the advice to give one.
@@ -58,7 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         info.ready = false;
     }
     // What is damaged and what to do is said in the libraries' words.
-    for line in info.advice.iter_mut().chain(&mut info.damage) {
+    let left_out = info.robot.iter_mut().flat_map(|robot| &mut robot.left_out);
+    for line in info.advice.iter_mut().chain(&mut info.damage).chain(left_out) {
         *line = names::in_flags(line);
     }
     drop(waiting);
@@ -148,7 +153,16 @@ fn overview(text: &mut String, info: &Info) -> fmt::Result {
 
 fn robot(text: &mut String, info: &Info) -> fmt::Result {
     let Some(robot) = &info.robot else { return Ok(()) };
-    writeln!(text, "{:<15} {}: {} to {}", "robot", robot.name, robot.base, robot.end_effector)?;
+    let guessed = |name: &str| match robot.guessed.contains(&name) {
+        true => format!(" (guessed: --{})", name.replace('_', "-")),
+        false => String::new(),
+    };
+    let (base, hand) = (guessed("base"), guessed("end_effector"));
+    let (from, to) = (&robot.base, &robot.end_effector);
+    writeln!(text, "{:<15} {}: {from}{base} to {to}{hand}", "robot", robot.name)?;
+    for part in &robot.left_out {
+        writeln!(text, "{:<15} {part}", "")?;
+    }
     if !robot.unknown_joints.is_empty() {
         writeln!(text, "{:<15} not of this robot: {}", "", robot.unknown_joints.join(" "))?;
     }

@@ -1,9 +1,12 @@
 //! Flags that say what the recording and the robot are, shared by the commands.
 
+use crate::robots::{Described, DescriptionArguments};
 use anyhow::{Context, Result, bail};
-use eyebolt_recording::{BagOptions, CloudFrame, DepthUnit, Recording, WriteRobot};
+use eyebolt_recording::{
+    BagOptions, CloudFrame, DepthUnit, JointNotes, NotedJoints, Recording, WriteRobot,
+};
 use eyebolt_registration::LinkCache;
-use eyebolt_robot::{Arm, PackageRoots, Robot};
+use eyebolt_robot::{Arm, Robot, RobotError};
 use std::path::{Path, PathBuf};
 
 /// Which recording, and how to read it.
@@ -118,19 +121,25 @@ impl RecordingArguments {
 /// Which robot.
 #[derive(Debug, clap::Args)]
 pub struct RobotArguments {
-    /// Robot description (URDF); otherwise the recording's
-    #[arg(long, value_name = "URDF")]
-    robot: Option<PathBuf>,
+    /// Robot description (URDF or xacro), a robot that comes with the program, or one that is installed
+    /// for ROS; otherwise the recording's
+    #[arg(long, value_name = "URDF|NAME")]
+    robot: Option<String>,
     /// Base link; otherwise the recording's, or guessed
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
     /// End-effector link; otherwise the recording's, or guessed
     #[arg(long, value_name = "LINK")]
     end_effector: Option<String>,
-    /// Where package:// leads: a folder of packages, or NAME=FOLDER; may be repeated.
-    /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too
-    #[arg(long, value_name = "[NAME=]FOLDER")]
-    package_path: Vec<String>,
+    #[command(flatten)]
+    description: DescriptionArguments,
+    /// Where a joint stands that is not recorded, such as a finger: radians, metres if it slides; may be
+    /// repeated. Otherwise the links that it moves take no part
+    #[arg(long, value_name = "NAME=VALUE", value_parser = joint)]
+    joint: Vec<(String, f64)>,
+    /// What the recording's names of joints have before the URDF's, or the URDF's before the recording's
+    #[arg(long, value_name = "PREFIX")]
+    joint_prefix: Option<String>,
     /// Let a robot description that comes from a bag name files outside the package folders
     #[arg(long)]
     allow_outside_files: bool,
@@ -157,59 +166,107 @@ impl RobotArguments {
         self.arm_of(robot, recording)
     }
 
+    /// `recording` with joints as the flags have them, which name joints of `arm`.
+    pub fn noted(&self, recording: Recording, arm: &Arm) -> Result<Recording> {
+        let notes = JointNotes { prefix: self.joint_prefix.clone(), positions: self.joint.clone() };
+        if notes.is_empty() {
+            return Ok(recording);
+        }
+        let robot = arm.robot();
+        if let Some((name, _)) =
+            self.joint.iter().find(|(name, _)| robot.joint_index(name).is_none())
+        {
+            let known = robot.joints.iter().filter(|joint| joint.moves());
+            let known: Vec<&str> = known.map(|joint| joint.name.as_str()).collect();
+            bail!(
+                "--joint {name}: the robot has no such joint; its joints are {}",
+                known.join(", ")
+            );
+        }
+        Ok(Recording::Other(Box::new(NotedJoints::new(recording, notes, robot))))
+    }
+
+    /// Positions of joints that the flags state.
+    pub fn stated_joints(&self) -> impl Iterator<Item = (String, f64)> {
+        self.joint.iter().cloned()
+    }
+
     /// As [`Self::arm`]; `None` if neither flags nor recording say what the robot is.
     pub fn arm_if_known(&self, recording: &Recording) -> Result<Option<Arm>> {
         self.robot(recording)?.map(|robot| self.arm_of(robot, recording)).transpose()
     }
 
-    fn arm_of(&self, robot: Robot, recording: &Recording) -> Result<Arm> {
+    fn arm_of(&self, described: Described, recording: &Recording) -> Result<Arm> {
+        let Described { robot, about, .. } = described;
         let section = recording.robot();
         // The recording's links are those of the robot it names, not of another given instead.
         let other = self.robot.is_some();
         let known = |link: &&String| !other || robot.link_index(link).is_some();
         let base = self.base.as_ref().or(section.base.as_ref().filter(known));
+        let base = base.or(about.as_ref().map(|about| &about.base));
         let hand = self.end_effector.as_ref().or(section.end_effector.as_ref().filter(known));
+        let hand = hand.or(about.as_ref().map(|about| &about.end_effector));
         Ok(robot.arm(base.map(String::as_str), hand.map(String::as_str))?)
     }
 
     /// What the flags and the recording say of the robot, for those who read the recording later.
     pub fn to_write(&self, recording: &Recording) -> Result<WriteRobot> {
         let section = recording.robot();
-        let urdf = match self.robot.as_ref().or(section.urdf.as_ref()) {
-            Some(path) => {
-                // Whoever reads it later will; better told now.
-                Robot::from_urdf_file(path, &self.packages())?;
-                let failed = || format!("{}: cannot read the URDF", path.display());
-                Some(std::fs::read_to_string(path).with_context(failed)?)
+        let (mut base, mut end_effector) = (self.base.clone(), self.end_effector.clone());
+        let urdf = match self.named(recording)? {
+            Some(described) => {
+                let text = described.text.clone();
+                match self.arm_of(described, recording) {
+                    // The links that the recording names may be another robot's.
+                    Ok(arm) if self.robot.is_some() => {
+                        let lacks = |link: &Option<String>| {
+                            link.as_ref().is_some_and(|link| arm.robot().link_index(link).is_none())
+                        };
+                        base = base.or(lacks(&section.base).then(|| arm.base_name().to_owned()));
+                        let hand = || arm.end_effector_name().to_owned();
+                        end_effector = end_effector.or(lacks(&section.end_effector).then(hand));
+                    }
+                    Ok(_) => {}
+                    // Whoever reads it later will find what is wrong; better told now. Which links are
+                    // meant, they may say then.
+                    Err(error) => match error.downcast_ref() {
+                        Some(RobotError::Ambiguous { .. } | RobotError::NoArm { .. }) => {}
+                        _ => return Err(error),
+                    },
+                }
+                Some(text)
             }
             None => section.description.clone(),
         };
-        let (base, end_effector) = (self.base.clone(), self.end_effector.clone());
         Ok(WriteRobot { urdf, base, end_effector })
     }
 
-    fn robot(&self, recording: &Recording) -> Result<Option<Robot>> {
-        let section = recording.robot();
-        let packages = self.packages();
-        if let Some(urdf) = self.robot.as_ref().or(section.urdf.as_ref()) {
-            return Ok(Some(Robot::from_urdf_file(urdf, &packages)?));
+    /// The robot of the flags, or of the file that the recording names.
+    fn named(&self, recording: &Recording) -> Result<Option<Described>> {
+        match (&self.robot, &recording.robot().urdf) {
+            (Some(name), _) => self.description.named(name).map(Some),
+            (None, Some(path)) => self.description.file(path).map(Some),
+            (None, None) => Ok(None),
         }
-        let Some(text) = &section.description else { return Ok(None) };
-        Ok(Some(Robot::from_urdf_str(text, None, &packages)?))
     }
 
-    fn packages(&self) -> PackageRoots {
-        packages(&self.package_path).with_outside_files(self.allow_outside_files)
+    fn robot(&self, recording: &Recording) -> Result<Option<Described>> {
+        if let Some(described) = self.named(recording)? {
+            return Ok(Some(described));
+        }
+        let Some(text) = &recording.robot().description else { return Ok(None) };
+        let packages = self.description.packages().with_outside_files(self.allow_outside_files);
+        let robot = Robot::from_urdf_str(text, None, &packages)?;
+        Ok(Some(Described { robot, text: text.clone(), about: None }))
     }
 }
 
-/// The packages that flags name, then those that the environment does.
-pub fn packages(flags: &[String]) -> PackageRoots {
-    let variable = |name| std::env::var(name).ok();
-    let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
-    let environment = PackageRoots::from_environment(ros.as_deref(), ament.as_deref());
-    let named = flags.iter().fold(PackageRoots::new(), |roots, flag| roots.with_argument(flag));
-    named.then(environment)
+fn joint(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').unwrap_or_default();
+    match value.parse::<f64>() {
+        Ok(value) if value.is_finite() && !name.is_empty() => Ok((name.to_owned(), value)),
+        _ => Err("write NAME=VALUE, in radians or metres".to_owned()),
+    }
 }
 
 /// Where shapes of links are kept between runs.

@@ -16,6 +16,7 @@ mod output;
 mod pose;
 mod progress;
 mod record_command;
+mod robots;
 mod segment;
 mod shell;
 mod simulate;

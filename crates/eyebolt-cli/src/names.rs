@@ -3,7 +3,7 @@
 use eyebolt_robot::Input;
 
 /// Inputs whose flag is not their name with dashes: the flag says the unit, or several flags make one.
-const OTHER_FLAGS: [(Input, &str); 8] = [
+const OTHER_FLAGS: [(Input, &str); 9] = [
     (Input::MAX_MOTION, "--max-motion-deg"),
     (Input::MAX_ERROR_TRANSLATION, "--max-error-mm"),
     (Input::MAX_ERROR_ROTATION, "--max-error-deg"),
@@ -11,6 +11,7 @@ const OTHER_FLAGS: [(Input, &str); 8] = [
     (Input::AZIMUTH, "--azimuth-deg"),
     (Input::ELEVATION, "--elevation-deg"),
     (Input::OUTSIDE_FILES, "--allow-outside-files"),
+    (Input::XACRO_ARGUMENT, "--xacro-arg"),
     (Input::CENTRE, "--centre-px"),
 ];
 

@@ -42,9 +42,15 @@ pub fn text(
         let _ =
             writeln!(text, "  stamps of depth and joints are {seconds:.3} s apart: made up for");
     }
-    if !answer.assumed_joints.is_empty() {
-        let joints = answer.assumed_joints.join(", ");
-        let _ = writeln!(text, "  not recorded, taken at their lower limit: {joints}");
+    if !answer.unplaced_joints.is_empty() {
+        let joints = answer.unplaced_joints.join(", ");
+        let _ = writeln!(text, "  not recorded, so that their links took no part: {joints}");
+    }
+    for (joint, position) in &answer.stated_joints {
+        let _ = writeln!(text, "  {joint} stands at {position}, as --joint says");
+    }
+    for part in &answer.left_out {
+        let _ = writeln!(text, "  {}", part);
     }
     for finding in answer.findings() {
         let _ = writeln!(text, "  {finding}");
@@ -64,6 +70,9 @@ pub fn text(
              where they put it"
         );
     }
+    if let Some(guessed) = guessed(answer) {
+        let _ = writeln!(text, "  {guessed}");
+    }
     let _ = match path == Path::new(STDOUT) {
         true => write!(text, "\nwritten to standard output"),
         false => write!(text, "\nwritten to {}", path.display()),
@@ -80,6 +89,17 @@ pub fn text(
         let _ = write!(text, "\nreport in {}", report.display());
     }
     text
+}
+
+/// Which links were guessed, and how to name others.
+fn guessed(answer: &Answer) -> Option<String> {
+    let frames = &answer.frames;
+    let link = |name: &&str| match *name {
+        "base" => format!("base {} (--base)", frames.base),
+        _ => format!("end-effector {} (--end-effector)", frames.end_effector),
+    };
+    let links: Vec<String> = frames.guessed.iter().map(link).collect();
+    (!links.is_empty()).then(|| format!("guessed, since nobody named them: {}", links.join(", ")))
 }
 
 fn verdict(text: &mut String, answer: &Answer, reasons: &Verdict) -> std::fmt::Result {

@@ -59,6 +59,7 @@ mod frame_source;
 #[doc(hidden)]
 pub mod fuzzing;
 mod in_memory;
+mod joint_names;
 mod joints;
 mod manifest;
 mod mask;
@@ -87,6 +88,7 @@ pub use folder::Folder;
 pub use frame::{Frame, Range};
 pub use frame_source::FrameSource;
 pub use in_memory::{InMemory, depth_from_millimetres};
+pub use joint_names::{JointNotes, NotedJoints};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;
 pub use npy::{Dtype, Npy, Number};

@@ -1,9 +1,10 @@
 //! The part of a robot between a base link and an end-effector link.
 
 mod chain;
+mod flawless;
 mod guess;
 mod kinematics;
 mod walk;
 
-pub use chain::{Arm, OutsideLimits};
-pub use kinematics::{LinkPoses, PosesWithDefaults};
+pub use chain::{Arm, Guessed, OutsideLimits};
+pub use kinematics::{KnownPoses, LinkPoses, PosesWithDefaults};

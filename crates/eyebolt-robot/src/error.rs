@@ -3,9 +3,10 @@
 use crate::input::Input;
 use crate::packages::ResolveError;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A robot description that cannot be used, or an arm that cannot be picked from it.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
     /// The file could not be read.
@@ -14,7 +15,7 @@ pub enum RobotError {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        source: Arc<std::io::Error>,
     },
     /// The text is longer than [`crate::MAX_URDF_BYTES`].
     #[error("{file}: {bytes} bytes, but a URDF may have {limit}; is this a URDF and not a mesh?")]
@@ -35,6 +36,16 @@ pub enum RobotError {
         problem: String,
         /// What to do.
         remedy: &'static str,
+    },
+    /// A xacro file cannot be expanded.
+    #[error("{file}, line {line}: {problem}")]
+    Xacro {
+        /// The file, or one that it includes.
+        file: String,
+        /// Line of the element, from 1.
+        line: u32,
+        /// What is wrong and what to do.
+        problem: String,
     },
     /// One element or attribute is missing or wrong.
     #[error("{file}, line {line}: {field}: {problem}")]
@@ -118,6 +129,7 @@ impl RobotError {
             Self::Read { .. }
             | Self::TooLarge { .. }
             | Self::Xml { .. }
+            | Self::Xacro { .. }
             | Self::Field { .. }
             | Self::Tree { .. } => Some(Input::ROBOT),
         }
@@ -131,9 +143,10 @@ pub enum KinematicsError {
     /// Joints between base and end-effector have no position.
     #[error(
         "no position for arm joint {}; the recording has {}; \
-         record these joints or use the URDF whose joint names match",
+         record these joints or use the URDF whose joint names match{}",
         quoted(missing),
-        listed(recorded)
+        listed(recorded),
+        prefix_hint(missing, recorded)
     )]
     MissingArmJoints {
         /// Every joint without a position.
@@ -162,6 +175,26 @@ pub enum KinematicsError {
         /// Its position.
         position: f64,
     },
+}
+
+/// What all of `missing` lack, or have more, before their names in `recorded`.
+pub fn joint_prefix(missing: &[String], recorded: &[String]) -> Option<String> {
+    let first = missing.first()?;
+    let more = recorded.iter().filter_map(|name| name.strip_suffix(first.as_str()));
+    let less = recorded.iter().filter_map(|name| first.strip_suffix(name.as_str()));
+    let fits = |prefix: &&str| {
+        missing.iter().all(|name| {
+            recorded.contains(&format!("{prefix}{name}"))
+                || name.strip_prefix(prefix).is_some_and(|rest| recorded.iter().any(|r| r == rest))
+        })
+    };
+    more.chain(less).filter(|prefix| !prefix.is_empty()).find(fits).map(str::to_owned)
+}
+
+fn prefix_hint(missing: &[String], recorded: &[String]) -> String {
+    joint_prefix(missing, recorded).map_or(String::new(), |prefix| {
+        format!("; their names differ by `{prefix}`: give {} {prefix}", Input::JOINT_PREFIX)
+    })
 }
 
 fn quoted(names: &[String]) -> String {

@@ -27,14 +27,21 @@ pub fn body_fingerprint(body: &Body) -> Result<Fingerprint, MeshError> {
     hash.numbers(&pose.rotation_xyzw());
     match &body.shape {
         Shape::Mesh { path, scale } => {
-            let (format, bytes) = read_mesh_file(path)?;
-            hash.kind(match format {
+            let file = read_mesh_file(path)?;
+            hash.kind(match file.format {
                 Format::Stl => "stl",
                 Format::Obj => "obj",
                 Format::Dae => "dae",
+                Format::Gltf => "glt",
             });
             hash.numbers(scale);
-            hash.0.update(&bytes);
+            // Where one file ends and the next begins decides what is read of them.
+            for part in std::iter::once(&file.bytes).chain(&file.beside) {
+                if !file.beside.is_empty() {
+                    hash.0.update(&(part.len() as u64).to_le_bytes());
+                }
+                hash.0.update(part);
+            }
         }
         Shape::Box { size } => {
             hash.kind("box");

@@ -28,6 +28,12 @@ inputs! {
     BASE = "base";
     /// The end-effector link.
     END_EFFECTOR = "end_effector";
+    /// Position of a joint that is not recorded.
+    JOINT = "joint";
+    /// What the recording's names of joints have before the robot's.
+    JOINT_PREFIX = "joint_prefix";
+    /// Value of an argument of a xacro file.
+    XACRO_ARGUMENT = "xacro_argument";
     /// Where `package://` leads.
     PACKAGE_PATH = "package_path";
     /// Whether a recording's robot description may name files outside the package folders.

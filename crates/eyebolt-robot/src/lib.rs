@@ -1,4 +1,4 @@
-//! Robot arms from URDF: links, joints, forward kinematics, meshes.
+//! Robot arms from URDF and xacro: links, joints, forward kinematics, meshes.
 //!
 //! [`Robot`] is the kinematic tree of a URDF. [`Robot::arm`] picks the base and the end-effector
 //! link, and the [`Arm`] gives the pose of every link for [`JointPositions`]. Meshes are read only
@@ -7,8 +7,10 @@
 //! SI units and radians. The format follows <http://wiki.ros.org/urdf/XML>.
 
 mod arm;
+mod descriptions;
 mod error;
 mod fingerprint;
+mod flaw;
 mod input;
 mod joint_positions;
 mod mesh;
@@ -16,11 +18,13 @@ mod packages;
 mod robot;
 mod tree;
 mod urdf;
+mod xacro;
 mod xml;
 
-pub use arm::{Arm, LinkPoses, OutsideLimits, PosesWithDefaults};
-pub use error::{KinematicsError, RobotError};
+pub use arm::{Arm, Guessed, KnownPoses, LinkPoses, OutsideLimits, PosesWithDefaults};
+pub use error::{KinematicsError, RobotError, joint_prefix};
 pub use fingerprint::{Fingerprint, body_fingerprint, link_fingerprint};
+pub use flaw::LeftOut;
 pub use input::Input;
 pub use joint_positions::JointPositions;
 pub use mesh::{
@@ -28,4 +32,5 @@ pub use mesh::{
 };
 pub use packages::{PackageRoots, Remedy, ResolveError};
 pub use robot::{Body, Joint, JointKind, JointLimits, Link, Mimic, Robot, Shape};
-pub use urdf::MAX_URDF_BYTES;
+pub use urdf::{Description, MAX_URDF_BYTES};
+pub use xacro::XacroArguments;

@@ -3,6 +3,7 @@
 mod dae;
 mod dae_geometry;
 mod error;
+mod gltf;
 mod load;
 mod obj;
 mod primitives;

@@ -8,7 +8,9 @@ mod remedy;
 pub use error::ResolveError;
 pub use remedy::Remedy;
 
-use path::{is_called, percent_decoded, stays_inside};
+pub(crate) use path::{percent_decoded, stays_inside};
+
+use path::{climbed, is_called, packages_in};
 use places::Places;
 use std::path::{Path, PathBuf};
 
@@ -16,9 +18,9 @@ use std::path::{Path, PathBuf};
 /// search folders, ament prefixes, then the folders above the URDF that are called `name`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PackageRoots {
-    named: Vec<(String, PathBuf)>,
-    search: Vec<PathBuf>,
-    ament: Vec<PathBuf>,
+    pub(crate) named: Vec<(String, PathBuf)>,
+    pub(crate) search: Vec<PathBuf>,
+    pub(crate) ament: Vec<PathBuf>,
     /// Whether a description that came with a recording may name files elsewhere.
     outside_files: bool,
 }
@@ -107,6 +109,15 @@ impl PackageRoots {
         places.first_inside(url, named.chain(&self.search).chain(&shares).map(PathBuf::as_path))
     }
 
+    /// The folder of package `name`, if it is there; `directory` as for [`Self::resolve`].
+    pub(crate) fn package(&self, name: &str, directory: Option<&Path>) -> Option<String> {
+        if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
+            return None;
+        }
+        let found = self.roots_of(name, directory).find(|root| root.is_dir())?;
+        Some(found.display().to_string())
+    }
+
     fn places(&self, url: &str, directory: Option<&Path>) -> Result<Places, ResolveError> {
         let unsupported = |problem| ResolveError::Unsupported { url: url.to_owned(), problem };
         if url.trim().is_empty() {
@@ -118,28 +129,51 @@ impl PackageRoots {
                 let path = percent_decoded(path.strip_prefix("localhost/").unwrap_or(path))
                     .ok_or_else(|| unsupported("bad %-escape"))?;
                 let path = Path::new("/").join(path.trim_start_matches('/'));
-                Ok(absolute(path, directory))
+                Ok(self.of_other_machine(absolute(path, directory), directory))
             }
             Some(_) => Err(unsupported("only package://, model:// and file:// are read")),
-            None if Path::new(url).is_absolute() => Ok(absolute(PathBuf::from(url), directory)),
+            None if Path::new(url).is_absolute() => {
+                let places = absolute(PathBuf::from(url), directory);
+                Ok(self.of_other_machine(places, directory))
+            }
             None => self.path_places(url, directory),
         }
+    }
+
+    /// With the places of the package that an absolute path lies in on the machine that it was made
+    /// on: the folder below `share`, or one that is given by name.
+    fn of_other_machine(&self, mut places: Places, directory: Option<&Path>) -> Places {
+        let Some(path) = places.paths.first().cloned() else { return places };
+        for (installed, name, rest) in packages_in(&path) {
+            if installed {
+                places.paths.extend(self.roots_of(&name, directory).map(|root| root.join(&rest)));
+                places.remedy = Remedy::GivePackage(name);
+            } else {
+                let given = self.named.iter().filter(|(given, _)| *given == name);
+                places.paths.extend(given.map(|(_, directory)| directory.join(&rest)));
+            }
+        }
+        places
     }
 
     /// A relative path: from the folder of the URDF, else from the folders given, where a description
     /// from a topic or a copied one has its meshes.
     fn path_places(&self, url: &str, directory: Option<&Path>) -> Result<Places, ResolveError> {
         let mut paths: Vec<PathBuf> = directory.map(|d| d.join(url)).into_iter().collect();
-        if stays_inside(url) {
-            let named = self.named.iter().map(|(_, directory)| directory);
-            paths.extend(named.chain(&self.search).map(|root| root.join(url)));
-        } else if directory.is_none() {
-            return Err(ResolveError::Escapes { url: url.to_owned() });
-        }
-        let remedy = match directory {
-            Some(_) => Remedy::GiveFolder,
-            None => Remedy::GiveFolderOrUrdf,
+        let remedy = match climbed(url) {
+            0 if directory.is_some() => Remedy::GiveFolder,
+            0 => Remedy::GiveFolderOrUrdf,
+            _ => Remedy::GiveFolderAbove,
         };
+        // Of `../../meshes`, what is left where a package's own folder is given.
+        let inside = path::without_climbing(url);
+        if stays_inside(&inside) {
+            let named = self.named.iter().map(|(_, directory)| directory);
+            paths.extend(named.chain(&self.search).map(|root| root.join(&inside)));
+        }
+        if directory.is_none() && !paths.iter().any(|path| path.is_file()) && !stays_inside(url) {
+            return Err(ResolveError::Escapes { url: url.to_owned(), remedy });
+        }
         Ok(Places { paths, remedy })
     }
 
@@ -151,12 +185,23 @@ impl PackageRoots {
     ) -> Result<Places, ResolveError> {
         let (name, rest) = path.split_once('/').unwrap_or((path, ""));
         if name == ".." || !stays_inside(rest) {
-            return Err(ResolveError::Escapes { url: url.to_owned() });
+            let remedy = Remedy::StayInside;
+            return Err(ResolveError::Escapes { url: url.to_owned(), remedy });
         }
         if matches!(name, "" | ".") || rest.is_empty() {
             let problem = "a package and a path in it are needed";
             return Err(ResolveError::Unsupported { url: url.to_owned(), problem });
         }
+        let paths = self.roots_of(name, directory).map(|root| root.join(rest)).collect();
+        Ok(Places { paths, remedy: Remedy::GivePackage(name.to_owned()) })
+    }
+
+    /// Where package `name` may lie.
+    pub(crate) fn roots_of(
+        &self,
+        name: &str,
+        directory: Option<&Path>,
+    ) -> impl Iterator<Item = PathBuf> {
         let mut roots: Vec<PathBuf> = Vec::new();
         let given = self.named.iter().filter(|(given, _)| given == name);
         roots.extend(given.map(|(_, directory)| directory.clone()));
@@ -169,8 +214,7 @@ impl PackageRoots {
             roots.extend(is_called(above, name).then(|| above.to_owned()));
             roots.push(above.join(name));
         }
-        let paths = roots.into_iter().map(|root| root.join(rest)).collect();
-        Ok(Places { paths, remedy: Remedy::GivePackage(name.to_owned()) })
+        roots.into_iter()
     }
 }
 

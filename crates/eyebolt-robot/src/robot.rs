@@ -1,5 +1,7 @@
 //! The kinematic tree of a robot.
 
+use crate::error::RobotError;
+use crate::flaw::{Flaw, Of};
 use eyebolt_geometry::{Transform, frame};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use std::path::PathBuf;
@@ -16,6 +18,8 @@ pub struct Robot {
     /// Where the description came from, for messages.
     pub(crate) source: String,
     pub(crate) urdf_hash: String,
+    /// Parts that cannot be used as they stand.
+    pub(crate) flaws: Vec<Flaw>,
 }
 
 /// A rigid part of the robot.
@@ -88,6 +92,9 @@ pub enum JointKind {
     Continuous,
     /// Slides along its axis, metres.
     Prismatic,
+    /// In a way that no one number tells (planar, floating), or that the description gets wrong:
+    /// where its links are is not known.
+    Undetermined,
 }
 
 /// The connection of a link to its parent.
@@ -152,6 +159,25 @@ impl Robot {
         self.joints.iter().filter(move |joint| joint.parent == link)
     }
 
+    /// Whether the link has a shape, or would have one if that could be used.
+    pub(crate) fn shows(&self, link: usize) -> bool {
+        self.links.get(link).is_some_and(|link| {
+            let flawed = |of: &Of| match of {
+                Of::Visual(name) | Of::Collision(name) => *name == link.name,
+                Of::Nothing(_) | Of::Joint(_) | Of::Mimic(_) => false,
+            };
+            link.has_geometry() || self.flaws.iter().any(|flaw| flawed(&flaw.of))
+        })
+    }
+
+    /// The first flaw of a joint that `wanted` is true of.
+    pub(crate) fn joint_flaw(&self, wanted: impl Fn(&str) -> bool) -> Option<&RobotError> {
+        self.flaws.iter().find_map(|flaw| match &flaw.of {
+            Of::Joint(name) | Of::Mimic(name) if wanted(name) => Some(&flaw.error),
+            _ => None,
+        })
+    }
+
     pub(crate) fn link_names(&self) -> Vec<String> {
         self.links.iter().map(|link| link.name.clone()).collect()
     }
@@ -167,14 +193,19 @@ impl Link {
 impl Joint {
     /// Whether the joint has a position.
     pub fn moves(&self) -> bool {
-        self.kind != JointKind::Fixed
+        !matches!(self.kind, JointKind::Fixed | JointKind::Undetermined)
+    }
+
+    /// Whether the child link stands still in the parent link.
+    pub fn is_fixed(&self) -> bool {
+        self.kind == JointKind::Fixed
     }
 
     /// Pose of the child link in the parent link at `position` (radians or metres; ignored by
     /// fixed joints).
     pub fn parent_from_child(&self, position: f64) -> Transform<frame::Link, frame::Link> {
         let motion = match self.kind {
-            JointKind::Fixed => return self.parent_from_child_at_zero,
+            JointKind::Fixed | JointKind::Undetermined => return self.parent_from_child_at_zero,
             JointKind::Revolute | JointKind::Continuous => nalgebra::Isometry3::from_parts(
                 Translation3::identity(),
                 UnitQuaternion::from_axis_angle(&self.axis, position),

@@ -1,6 +1,7 @@
 //! Links and joints by name into one tree, parents first.
 
 use crate::error::RobotError;
+use crate::flaw::{Flaw, Of};
 use crate::robot::{Body, Joint, JointKind, JointLimits, Link, Mimic};
 use eyebolt_geometry::{Transform, frame};
 use nalgebra::{Unit, Vector3};
@@ -17,21 +18,42 @@ pub(crate) struct ParsedLink {
 
 pub(crate) struct ParsedJoint {
     pub(crate) name: String,
-    pub(crate) kind: JointKind,
     pub(crate) parent: String,
     pub(crate) child: String,
+    pub(crate) motion: Motion,
+}
+
+/// How a joint moves.
+pub(crate) struct Motion {
+    pub(crate) kind: JointKind,
     pub(crate) parent_from_child_at_zero: Transform<frame::Link, frame::Link>,
     pub(crate) axis: Unit<Vector3<f64>>,
     pub(crate) limits: Option<JointLimits>,
-    /// Name of the joint to follow, multiplier, offset.
-    pub(crate) mimic: Option<(String, f64, f64)>,
+    pub(crate) mimic: Followed,
 }
+
+impl Motion {
+    /// Nothing but its kind is known of it.
+    pub(crate) fn of(kind: JointKind) -> Self {
+        Self {
+            kind,
+            parent_from_child_at_zero: Transform::identity(),
+            axis: Vector3::x_axis(),
+            limits: None,
+            mimic: None,
+        }
+    }
+}
+
+/// Name of the joint to follow, multiplier, offset.
+type Followed = Option<(String, f64, f64)>;
 
 /// Links in an order in which parents come first, joints in the order of their children.
 pub(crate) fn build(
     file: &str,
     links: Vec<ParsedLink>,
     joints: Vec<ParsedJoint>,
+    flaws: &mut Vec<Flaw>,
 ) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
     let broken = |problem: String| RobotError::Tree { file: file.to_owned(), problem };
     if links.len() > MAX_LINKS {
@@ -43,9 +65,11 @@ pub(crate) fn build(
     unique("link", links.iter().map(|link| link.name.as_str())).map_err(broken)?;
     unique("joint", joints.iter().map(|joint| joint.name.as_str())).map_err(broken)?;
     let order = order(&links, &joints).map_err(broken)?;
-    let built = assemble(links, joints, &order);
-    let (links, joints) = built.map_err(broken)?;
-    check_mimic_cycles(&joints).map_err(broken)?;
+    let (links, mut joints, followed) = assemble(links, joints, &order);
+    let unfollowed =
+        [connect_mimics(&mut joints, followed), cut_mimic_cycles(&mut joints)].concat();
+    let flaw = |(joint, problem)| Flaw { of: Of::Mimic(joint), error: broken(problem) };
+    flaws.extend(unfollowed.into_iter().map(flaw));
     Ok((links, joints))
 }
 
@@ -125,7 +149,7 @@ fn assemble(
     links: Vec<ParsedLink>,
     joints: Vec<ParsedJoint>,
     order: &[(usize, Option<usize>)],
-) -> Result<(Vec<Link>, Vec<Joint>), String> {
+) -> (Vec<Link>, Vec<Joint>, Vec<Followed>) {
     let mut links: Vec<Option<ParsedLink>> = links.into_iter().map(Some).collect();
     let mut joints: Vec<Option<ParsedJoint>> = joints.into_iter().map(Some).collect();
     let mut new_links: Vec<Link> = Vec::with_capacity(order.len());
@@ -142,27 +166,28 @@ fn assemble(
         let parent_and_joint = parent.map(|parent| (parent, new_joints.len()));
         new_links.push(Link { name, parent: parent_and_joint, visuals, collisions });
         if let (Some(parent), Some(joint)) = (parent, joint) {
-            followed.push(joint.mimic);
+            let Motion { kind, parent_from_child_at_zero, axis, limits, mimic } = joint.motion;
+            followed.push(mimic);
+            let name = joint.name;
             new_joints.push(Joint {
-                name: joint.name,
-                kind: joint.kind,
+                name,
+                kind,
                 parent,
                 child,
-                parent_from_child_at_zero: joint.parent_from_child_at_zero,
-                axis: joint.axis,
-                limits: joint.limits,
+                parent_from_child_at_zero,
+                axis,
+                limits,
                 mimic: None,
             });
         }
     }
-    connect_mimics(&mut new_joints, followed)?;
-    Ok((new_links, new_joints))
+    (new_links, new_joints, followed)
 }
 
-fn connect_mimics(
-    joints: &mut [Joint],
-    followed: Vec<Option<(String, f64, f64)>>,
-) -> Result<(), String> {
+/// What each joint follows: name, multiplier, offset. Returns the joints that follow nothing that
+/// moves, which then follow nothing, and what is wrong with them.
+fn connect_mimics(joints: &mut [Joint], followed: Vec<Followed>) -> Vec<(String, String)> {
+    let mut problems = Vec::new();
     let by_name: HashMap<String, (usize, bool)> = (joints.iter().enumerate())
         .map(|(index, joint)| (joint.name.clone(), (index, joint.moves())))
         .collect();
@@ -172,36 +197,44 @@ fn connect_mimics(
             Some((other, true)) => Some(Mimic { joint: *other, multiplier, offset }),
             Some((_, false)) => {
                 let follower = &joint.name;
-                return Err(format!(
+                let problem = format!(
                     "joint `{follower}`, mimic: `{name}` is fixed; follow a joint that moves"
-                ));
+                );
+                problems.push((follower.clone(), problem));
+                None
             }
             None => {
                 let follower = &joint.name;
-                return Err(format!(
-                    "joint `{follower}`, mimic: no joint `{name}`; correct the name"
-                ));
+                let problem =
+                    format!("joint `{follower}`, mimic: no joint `{name}`; correct the name");
+                problems.push((follower.clone(), problem));
+                None
             }
         };
     }
-    Ok(())
+    problems
 }
 
-fn check_mimic_cycles(joints: &[Joint]) -> Result<(), String> {
+/// Lets one joint of every cycle of mimics follow nothing; these, and what is wrong with them.
+fn cut_mimic_cycles(joints: &mut [Joint]) -> Vec<(String, String)> {
+    let mut problems = Vec::new();
     // Each joint is walked once: `checked` are those known to end at a joint that follows none.
     let mut checked = BTreeSet::new();
     for start in 0..joints.len() {
         let mut walked = BTreeSet::new();
         let mut next = Some(start);
         while let Some(index) = next.filter(|index| !checked.contains(index)) {
-            let Some(joint) = joints.get(index) else { break };
+            let Some(joint) = joints.get_mut(index) else { break };
             if !walked.insert(index) {
-                let name = &joint.name;
-                return Err(format!("joint `{name}`, mimic: it follows itself; remove one mimic"));
+                let name = joint.name.clone();
+                let problem = format!("joint `{name}`, mimic: it follows itself; remove one mimic");
+                problems.push((name, problem));
+                joint.mimic = None;
+                break;
             }
             next = joint.mimic.map(|mimic| mimic.joint);
         }
         checked.extend(walked);
     }
-    Ok(())
+    problems
 }

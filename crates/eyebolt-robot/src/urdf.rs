@@ -3,24 +3,41 @@
 //! Format: <http://wiki.ros.org/urdf/XML>, with `quat_xyzw` and `capsule` of later versions.
 
 use crate::error::RobotError;
+use crate::flaw::{Flaw, Of};
+use crate::input::Input;
 use crate::packages::PackageRoots;
 use crate::robot::{Body, JointKind, JointLimits, Robot, Shape};
-use crate::tree::{self, ParsedJoint, ParsedLink};
+use crate::tree::{self, Motion, ParsedJoint, ParsedLink};
+use crate::xacro::{self, XacroArguments};
 use crate::xml::{self, Element};
 use eyebolt_geometry::{Transform, frame};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Longest URDF accepted, bytes.
 pub const MAX_URDF_BYTES: u64 = 64 << 20;
 
-impl Robot {
-    /// Reads a URDF file. Meshes must exist, but are not read.
+/// The text that describes a robot, and where it came from.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// URDF: what xacro stood for is expanded.
+    pub text: String,
+    file: String,
+    directory: PathBuf,
+}
+
+impl Description {
+    /// Reads a URDF file, or expands a xacro file with `arguments`. Meshes are not looked at yet.
     ///
     /// # Errors
-    /// See [`RobotError`]; each names the file, the element and what to do.
-    pub fn from_urdf_file(path: &Path, packages: &PackageRoots) -> Result<Self, RobotError> {
+    /// A file that cannot be read, is too large or cannot be expanded.
+    pub fn read(
+        path: &Path,
+        packages: &PackageRoots,
+        arguments: &XacroArguments,
+    ) -> Result<Self, RobotError> {
         let file = path.display().to_string();
         let text = read_limited(path, &file)?;
         let directory = match path.parent() {
@@ -29,9 +46,43 @@ impl Robot {
             None => Path::new("."),
         };
         // Packages above the URDF are found by walking up, which needs the whole path.
-        let absolute = std::path::absolute(directory);
-        let directory = absolute.as_deref().unwrap_or(directory);
-        parse(&text, &file, Some(directory), packages)
+        let directory = std::path::absolute(directory).unwrap_or_else(|_| directory.to_owned());
+        if !needs_expansion(path, &text) {
+            return Ok(Self { text, file, directory });
+        }
+        let text = xacro::expand(path, &text, packages, arguments)?;
+        Ok(Self { text, file: format!("{file} (expanded)"), directory })
+    }
+
+    /// The robot that it describes. Meshes must exist where the arm needs them, but are not read.
+    ///
+    /// # Errors
+    /// See [`RobotError`]; each names the file, the element and what to do.
+    pub fn robot(&self, packages: &PackageRoots) -> Result<Robot, RobotError> {
+        parse(&self.text, &self.file, Some(&self.directory), packages)
+    }
+}
+
+/// Whether the file is xacro by its name or by its elements.
+fn needs_expansion(path: &Path, text: &str) -> bool {
+    let named = path.extension().is_some_and(|extension| extension == "xacro");
+    // Most files have no such word, and need not be parsed twice.
+    named
+        || (text.contains("xacro") && {
+            let text = text.trim_start_matches('\u{feff}').trim_start();
+            xml::parse(&xml::with_declared_prefixes(text))
+                .is_ok_and(|document| xacro::is_xacro(&document))
+        })
+}
+
+impl Robot {
+    /// Reads a URDF file, or a xacro file whose arguments all have defaults. Meshes must exist where
+    /// the arm needs them, but are not read.
+    ///
+    /// # Errors
+    /// See [`RobotError`]; each names the file, the element and what to do.
+    pub fn from_urdf_file(path: &Path, packages: &PackageRoots) -> Result<Self, RobotError> {
+        Description::read(path, packages, &XacroArguments::default())?.robot(packages)
     }
 
     /// Reads URDF text. Relative mesh paths start at `directory`, the folder of the file that the
@@ -53,7 +104,7 @@ impl Robot {
 }
 
 fn read_limited(path: &Path, file: &str) -> Result<String, RobotError> {
-    let failed = |source| RobotError::Read { path: path.to_owned(), source };
+    let failed = |source| RobotError::Read { path: path.to_owned(), source: Arc::new(source) };
     let handle = std::fs::File::open(path).map_err(failed)?;
     let mut text = String::new();
     // One byte more than allowed, so that a file that is too long shows.
@@ -77,7 +128,8 @@ fn parse(
 ) -> Result<Robot, RobotError> {
     check_length(text.len() as u64, file)?;
     let trimmed = text.trim_start_matches('\u{feff}').trim_start();
-    let document = xml::parse(trimmed).map_err(|(problem, remedy)| RobotError::Xml {
+    let declared = xml::with_declared_prefixes(trimmed);
+    let document = xml::parse(&declared).map_err(|(problem, remedy)| RobotError::Xml {
         file: file.to_owned(),
         problem,
         remedy,
@@ -87,24 +139,27 @@ fn parse(
     if found != "robot" {
         return Err(root.error("", format!("the outermost element is <{found}>; give a URDF")));
     }
-    if let Some(xacro) = root.node.descendants().find(|node| {
-        node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
-    }) {
-        return Err(root
-            .around(xacro)
-            .error("", "this is xacro; expand it first: xacro FILE.xacro > FILE.urdf"));
+    if xacro::is_xacro(&document) {
+        let problem = format!(
+            "this is xacro, not expanded: give the file with {}, or expand it: xacro FILE.xacro > FILE.urdf",
+            Input::ROBOT
+        );
+        return Err(root.error("", problem));
     }
     let reader = Reader { directory, packages, quaternions: has_quaternions(&root) };
-    let links = root.children("link").map(|link| reader.link(link)).collect::<Result<_, _>>()?;
-    let joints =
-        root.children("joint").map(|joint| reader.joint(joint)).collect::<Result<_, _>>()?;
-    let (links, joints) = tree::build(file, links, joints)?;
+    let mut flaws = Vec::new();
+    let links = root.children("link").map(|link| reader.link(link, &mut flaws));
+    let links = links.collect::<Result<_, _>>()?;
+    let joints = root.children("joint").map(|joint| reader.joint(joint, &mut flaws));
+    let joints = joints.collect::<Result<_, _>>()?;
+    let (links, joints) = tree::build(file, links, joints, &mut flaws)?;
     Ok(Robot {
         name: root.node.attribute("name").unwrap_or_default().to_owned(),
         links,
         joints,
         source: file.to_owned(),
         urdf_hash: blake3::hash(text.as_bytes()).to_hex().to_string(),
+        flaws,
     })
 }
 
@@ -124,20 +179,34 @@ struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    fn link(&self, mut element: Element<'_, '_>) -> Result<ParsedLink, RobotError> {
+    /// A link, and what is wrong with its bodies: whether that matters, the arm decides.
+    fn link(
+        &self,
+        mut element: Element<'_, '_>,
+        flaws: &mut Vec<Flaw>,
+    ) -> Result<ParsedLink, RobotError> {
         let name = named(&mut element, "link")?;
-        let bodies = |kind| {
-            element
-                .children(kind)
-                .map(|body| self.body(&body, &name))
-                .collect::<Result<Vec<_>, _>>()
+        let mut bodies = |kind, of: fn(String) -> Of| {
+            let mut sound = Vec::new();
+            for body in element.children(kind) {
+                match self.body(&body, &name) {
+                    Ok(body) => sound.push(body),
+                    Err(BodyFault::Nothing(error)) => {
+                        flaws.push(Flaw { of: Of::Nothing(name.clone()), error });
+                    }
+                    Err(BodyFault::Wrong(error)) => {
+                        flaws.push(Flaw { of: of(name.clone()), error });
+                    }
+                }
+            }
+            sound
         };
-        let visuals = bodies("visual")?;
-        let collisions = bodies("collision")?;
+        let visuals = bodies("visual", Of::Visual);
+        let collisions = bodies("collision", Of::Collision);
         Ok(ParsedLink { name, visuals, collisions })
     }
 
-    fn body(&self, element: &Element<'_, '_>, link: &str) -> Result<Body, RobotError> {
+    fn body(&self, element: &Element<'_, '_>, link: &str) -> Result<Body, BodyFault> {
         let geometry = element.required_child("geometry")?;
         let shape = geometry
             .node
@@ -145,6 +214,9 @@ impl Reader<'_> {
             .find(|child| child.is_element())
             .map(|node| geometry.around(node))
             .ok_or_else(|| geometry.error("", "empty; add a <mesh> or another shape"))?;
+        if has_no_extent(&shape) {
+            return Err(BodyFault::Nothing(shape.error("", "no extent at all; remove it")));
+        }
         Ok(Body { link_from_body: self.origin(element)?, shape: self.shape(&shape, link)? })
     }
 
@@ -185,11 +257,27 @@ impl Reader<'_> {
         })
     }
 
-    fn joint(&self, mut element: Element<'_, '_>) -> Result<ParsedJoint, RobotError> {
+    /// A joint. One that is not whole but connects two links tells nothing of its child's place; whether
+    /// that matters, the arm decides.
+    fn joint(
+        &self,
+        mut element: Element<'_, '_>,
+        flaws: &mut Vec<Flaw>,
+    ) -> Result<ParsedJoint, RobotError> {
         let name = named(&mut element, "joint")?;
-        let kind = kind(&element)?;
         let link =
             |end| Ok::<_, RobotError>(element.required_child(end)?.required("link")?.to_owned());
+        let (parent, child) = (link("parent")?, link("child")?);
+        let whole = self.motion(&element);
+        let motion = whole.unwrap_or_else(|error| {
+            flaws.push(Flaw { of: Of::Joint(name.clone()), error });
+            Motion::of(declared_kind(&element))
+        });
+        Ok(ParsedJoint { name, parent, child, motion })
+    }
+
+    fn motion(&self, element: &Element<'_, '_>) -> Result<Motion, RobotError> {
+        let kind = kind(element)?;
         let mimic = match element.child("mimic")? {
             Some(mimic) => Some((
                 mimic.required("joint")?.to_owned(),
@@ -198,15 +286,12 @@ impl Reader<'_> {
             )),
             None => None,
         };
-        Ok(ParsedJoint {
-            parent: link("parent")?,
-            child: link("child")?,
-            parent_from_child_at_zero: self.origin(&element)?,
-            axis: axis(&element, kind)?,
-            limits: limits(&element, kind)?,
+        Ok(Motion {
             kind,
+            parent_from_child_at_zero: self.origin(element)?,
+            axis: axis(element, kind)?,
+            limits: limits(element, kind)?,
             mimic,
-            name,
         })
     }
 
@@ -234,6 +319,30 @@ impl Reader<'_> {
     }
 }
 
+/// What is wrong with a body.
+enum BodyFault {
+    /// Its shape is a stand-in without any extent.
+    Nothing(RobotError),
+    Wrong(RobotError),
+}
+
+impl From<RobotError> for BodyFault {
+    fn from(error: RobotError) -> Self {
+        Self::Wrong(error)
+    }
+}
+
+/// Whether all lengths of a plain shape are zero: exporters write such for links that nobody sees.
+fn has_no_extent(shape: &Element<'_, '_>) -> bool {
+    let zero = |name| matches!(shape.number(name), Ok(Some(length)) if length == 0.0);
+    match shape.node.tag_name().name() {
+        "box" => matches!(shape.numbers("size"), Ok(Some([0.0, 0.0, 0.0]))),
+        "sphere" => zero("radius"),
+        "cylinder" | "capsule" => zero("radius") && zero("length"),
+        _ => false,
+    }
+}
+
 /// Name of a link or joint; from then on, messages call the element by it.
 fn named(element: &mut Element<'_, '_>, what: &str) -> Result<String, RobotError> {
     element.context = format!("<{what}>");
@@ -243,6 +352,15 @@ fn named(element: &mut Element<'_, '_>, what: &str) -> Result<String, RobotError
     }
     element.context = format!("{what} `{name}`");
     Ok(name)
+}
+
+/// The kind of a joint that is not whole. One that may move is taken to move until the arm is known: a
+/// chain does not end where its description is wrong.
+fn declared_kind(element: &Element<'_, '_>) -> JointKind {
+    match element.node.attribute("type") {
+        Some("planar" | "floating") => JointKind::Undetermined,
+        _ => kind(element).unwrap_or(JointKind::Revolute),
+    }
 }
 
 fn kind(element: &Element<'_, '_>) -> Result<JointKind, RobotError> {

@@ -2,14 +2,57 @@
 
 use crate::error::RobotError;
 use roxmltree::{Document, Node, ParsingOptions};
+use std::borrow::Cow;
 
 /// Most elements, attributes and texts of one document: memory stays near the size of the file.
 const MAX_NODES: u32 = 20_000_000;
 
+/// More prefixes than this are not declared one by one.
+const MOST_UNDECLARED: usize = 32;
+
+/// `text` with the prefixes declared that it uses and does not declare, as `drake:` in what some
+/// exporters write: elements of another program, which others pass over. Lines stay as they are.
+pub(crate) fn with_declared_prefixes(text: &str) -> Cow<'_, str> {
+    let mut declared = Cow::Borrowed(text);
+    for _ in 0..MOST_UNDECLARED {
+        let Err(roxmltree::Error::UnknownNamespace(prefix, _)) =
+            Document::parse_with_options(&declared, options())
+        else {
+            break;
+        };
+        let Some(at) = end_of_root_name(&declared) else { break };
+        let mut whole = declared.into_owned();
+        whole.insert_str(at, &format!(" xmlns:{prefix}=\"undeclared:{prefix}\""));
+        declared = Cow::Owned(whole);
+    }
+    declared
+}
+
+/// Where the name of the outermost element ends, after declaration, comments and instructions.
+fn end_of_root_name(text: &str) -> Option<usize> {
+    let mut at = 0;
+    loop {
+        at += text.get(at..)?.find('<')?;
+        let rest = text.get(at..)?;
+        let end = match rest {
+            _ if rest.starts_with("<!--") => rest.find("-->")?,
+            _ if rest.starts_with("<?") => rest.find("?>")?,
+            _ => {
+                let name = rest.find(|c: char| c.is_whitespace() || matches!(c, '>' | '/'))?;
+                return Some(at + name);
+            }
+        };
+        at += end;
+    }
+}
+
+fn options<'i>() -> ParsingOptions<'i> {
+    ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..Default::default() }
+}
+
 /// Parses plain XML: no DOCTYPE, hence no entities of the document's own.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, (String, &'static str)> {
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..Default::default() };
-    Document::parse_with_options(text, options).map_err(|error| {
+    Document::parse_with_options(text, options()).map_err(|error| {
         let remedy = match error {
             roxmltree::Error::DtdDetected => {
                 "remove the DOCTYPE and write out the entities that it defines"

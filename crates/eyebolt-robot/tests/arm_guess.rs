@@ -125,3 +125,100 @@ fn names_must_exist_and_be_connected() {
     let error = robot.arm(Some("hand"), Some("tcp")).unwrap_err().to_string();
     assert!(error.contains("no moving joint"), "{error}");
 }
+
+/// A link with a box, hung on `parent` by a joint of `kind` called `joint`.
+fn part(parent: &str, name: &str, joint: &str, kind: &str, inside: &str) -> String {
+    format!(
+        r#"<link name="{name}"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+        <joint name="{joint}" type="{kind}"><parent link="{parent}"/><child link="{name}"/>{inside}</joint>"#
+    )
+}
+
+/// IRB 2400, M-900iA: rods that follow a joint of the chain and lead nowhere.
+#[test]
+fn rods_of_a_parallelogram_are_no_fingers() {
+    let follows = r#"<mimic joint="arm2_joint" multiplier="-1"/>"#;
+    for at in 1..=3 {
+        let rod = part(&format!("arm{at}"), "rod", "rod_joint", "revolute", follows);
+        let end = part("rod", "rod_end", "rod_end_joint", "revolute", follows);
+        for parts in [
+            vec![chain("base", "arm", "revolute", 6), rod.clone()],
+            vec![chain("base", "arm", "revolute", 6), rod.clone(), end.clone()],
+        ] {
+            // A rod that hangs above the joint that it follows is told by being shorter.
+            assert_eq!(guessed(&robot(&parts)), names("base", "arm6"), "{at}");
+        }
+        // Without a mimic, as some write it.
+        let loose = part(&format!("arm{at}"), "rod", "rod_joint", "revolute", "");
+        let parts = [chain("base", "arm", "revolute", 6), loose];
+        assert_eq!(guessed(&robot(&parts)), names("base", "arm6"), "{at}");
+    }
+    // Fingers that follow each other are fingers.
+    let right = r#"<mimic joint="left1_joint"/>"#;
+    let parts = [
+        chain("base", "arm", "revolute", 6),
+        chain("arm6", "left", "prismatic", 1),
+        part("arm6", "right", "right_joint", "prismatic", right),
+    ];
+    assert_eq!(guessed(&robot(&parts)), names("base", "arm6"));
+}
+
+/// Stretch: a lift and an arm that slides out, and a camera's head that turns as often as the wrist.
+#[test]
+fn a_camera_head_is_no_arm() {
+    let parts = [
+        chain("base", "wheel_left", "continuous", 1),
+        chain("base", "wheel_right", "continuous", 1),
+        chain("base", "head", "revolute", 2),
+        chain("base", "lift", "prismatic", 2),
+        chain("lift2", "wrist", "revolute", 1),
+        part("wrist1", "gripper_finger_left", "joint_gripper_finger_left", "revolute", ""),
+        part("wrist1", "gripper_finger_right", "joint_gripper_finger_right", "revolute", ""),
+    ];
+    assert_eq!(guessed(&robot(&parts)), names("base", "wrist1"));
+}
+
+/// SO-100: five joints, and one that turns a jaw.
+#[test]
+fn a_jaw_is_no_axis_of_the_wrist() {
+    for (link, joint) in
+        [("Moving_Jaw", "6"), ("moving", "gripper"), ("finger_link", "joint6"), ("claw", "j")]
+    {
+        let parts =
+            [chain("base", "arm", "revolute", 5), part("arm5", link, joint, "revolute", "")];
+        assert_eq!(guessed(&robot(&parts)), names("base", "arm5"), "{link}");
+    }
+    for joint in ["wrist_roll", "gripper_roll_joint", "joint_6"] {
+        let parts =
+            [chain("base", "arm", "revolute", 5), part("arm5", "palm", joint, "revolute", "")];
+        assert_eq!(guessed(&robot(&parts)), names("base", "palm"), "{joint}");
+    }
+}
+
+/// On a UR, `base_link_inertia` carries the geometry and is turned by 180 degrees in `base_link`.
+#[test]
+fn base_link_comes_before_what_carries_its_geometry() {
+    let ur = |prefix: &str| {
+        format!(
+            r#"<robot><link name="world"/><link name="{prefix}base_link"/>
+            <joint name="m" type="fixed"><parent link="world"/><child link="{prefix}base_link"/></joint>
+            {}{}</robot>"#,
+            part(
+                &format!("{prefix}base_link"),
+                "base_link_inertia",
+                "i",
+                "fixed",
+                r#"<origin rpy="0 0 3.14159"/>"#
+            ),
+            chain("base_link_inertia", "arm", "revolute", 6)
+        )
+    };
+    for prefix in ["", "left_"] {
+        let robot = common::parse(&ur(prefix)).unwrap();
+        assert_eq!(guessed(&robot), names(&format!("{prefix}base_link"), "arm6"));
+        let arm = robot.arm(None, None).unwrap();
+        assert!(arm.guessed().base && arm.guessed().end_effector);
+        let arm = robot.arm(Some("base_link_inertia"), Some("arm6")).unwrap();
+        assert!(!arm.guessed().base && !arm.guessed().end_effector);
+    }
+}

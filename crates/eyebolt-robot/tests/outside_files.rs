@@ -1,7 +1,7 @@
 //! Which files a description that came with a recording may name.
 #![allow(clippy::unwrap_used)]
 
-use eyebolt_robot::{Input, PackageRoots, ResolveError, Robot, RobotError, Shape};
+use eyebolt_robot::{Arm, Input, PackageRoots, ResolveError, Robot, RobotError, Shape};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -46,8 +46,14 @@ impl Disk {
 
 fn urdf(url: &str) -> String {
     format!(
-        r#"<robot><link name="hand"><visual><geometry><mesh filename="{url}"/></geometry></visual></link></robot>"#
+        r#"<robot><link name="hand"><visual><geometry><mesh filename="{url}"/></geometry></visual></link>
+        <link name="tip"/><joint name="j" type="continuous"><parent link="hand"/><child link="tip"/></joint></robot>"#
     )
+}
+
+/// The arm of a description that came with a recording.
+fn arm(url: &str, roots: &PackageRoots) -> Result<Arm, RobotError> {
+    Robot::from_urdf_str(&urdf(url), None, roots)?.arm(None, None)
 }
 
 fn mesh_of(robot: &Robot) -> &Path {
@@ -62,7 +68,7 @@ fn a_recording_names_no_file_outside_the_package_folders() {
     let disk = Disk::new();
     for url in disk.outside() {
         for roots in [PackageRoots::new(), disk.roots()] {
-            let error = Robot::from_urdf_str(&urdf(&url), None, &roots).unwrap_err();
+            let error = arm(&url, &roots).unwrap_err();
             assert_eq!(error.input(), Some(Input::PACKAGE_PATH), "{url}: {error}");
             let text = error.to_string();
             let secret = disk.secret.display().to_string();
@@ -162,7 +168,7 @@ fn files_outside_are_read_where_that_is_allowed() {
             assert_eq!(mesh_of(&robot).canonicalize().unwrap(), disk.secret, "{url}");
         }
         let forbidden = allowed.clone().with_outside_files(false);
-        assert!(Robot::from_urdf_str(&urdf(&url), None, &forbidden).is_err());
+        assert!(arm(&url, &forbidden).is_err());
     }
 }
 

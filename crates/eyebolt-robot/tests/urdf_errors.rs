@@ -12,7 +12,7 @@ fn joint(attributes: &str, inside: &str) -> String {
     format!(r#"<joint name="j" {attributes}><parent link="a"/><child link="b"/>{inside}</joint>"#)
 }
 
-/// The URDF is refused and the message has all the words.
+/// The URDF, or the arm that it makes, is refused and the message has all the words.
 #[track_caller]
 fn refused(inside: &str, words: &[&str]) {
     message(&format!(r#"<robot name="r">{inside}</robot>"#), words);
@@ -20,7 +20,8 @@ fn refused(inside: &str, words: &[&str]) {
 
 #[track_caller]
 fn message(urdf: &str, words: &[&str]) {
-    let text = common::parse(urdf).unwrap_err().to_string();
+    let arm = common::parse(urdf).and_then(|robot| robot.arm(None, None));
+    let text = arm.unwrap_err().to_string();
     for word in [&["robot description"], words].concat() {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
@@ -87,7 +88,9 @@ fn joints_must_be_whole() {
 #[test]
 fn shapes_must_have_sizes() {
     let with = |shape: &str| {
-        format!(r#"<link name="a"><visual><geometry>{shape}</geometry></visual></link>"#)
+        let link =
+            format!(r#"<link name="a"><visual><geometry>{shape}</geometry></visual></link>"#);
+        format!(r#"{link}<link name="b"/>{}"#, joint(r#"type="revolute""#, ""))
     };
     refused(&with(""), &["link `a`, <visual>, <geometry>", "empty"]);
     refused(&with("<cone/>"), &["<cone>", "cylinder"]);
@@ -96,7 +99,7 @@ fn shapes_must_have_sizes() {
     refused(&with(r#"<box size="1 2"/>"#), &["size", "3 finite numbers"]);
     refused(&with(r#"<box size="1 2 0"/>"#), &["size", "above zero"]);
     refused(&with(r#"<mesh filename="a.stl" scale="1 0 1"/>"#), &["scale", "zero"]);
-    refused(r#"<link name="a"><visual/></link>"#, &["no <geometry>"]);
+    refused(&with("").replace("<geometry></geometry>", ""), &["no <geometry>"]);
 }
 
 #[test]

@@ -15,6 +15,7 @@ use crate::observations::{Background, ImageSource, Observations};
 use crate::pipeline::{Outcome, Request};
 use eyebolt_geometry::{CoordinateFrame, Distortion, PinholeCamera, Transform};
 use eyebolt_registration::Refinement;
+use eyebolt_robot::{Arm, Guessed};
 use nalgebra::{Matrix6, Point3};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -110,8 +111,16 @@ pub struct Answer {
     /// (`/tf_static`): exports place the root of the camera's frames by it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub static_transforms: Vec<Fixed>,
-    /// Joints of the hand that the recording does not have: they were put at their lower limit.
-    pub assumed_joints: Vec<String>,
+    /// Joints outside the chain that the recording does not have: the links that they move took no
+    /// part.
+    pub unplaced_joints: Vec<String>,
+    /// Positions that the caller stated for joints that the recording does not have: radians, metres
+    /// for prismatic joints.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub stated_joints: BTreeMap<String, f64>,
+    /// Parts of the robot description that are wrong and that the arm does not need, a sentence each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
     /// Name of the robot in its URDF.
     pub robot: String,
     /// Hash of the URDF's text.
@@ -138,6 +147,9 @@ pub struct Frames {
     pub base: String,
     /// The end-effector link.
     pub end_effector: String,
+    /// Which of `base` and `end_effector` nobody named, so that they were guessed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub guessed: Vec<&'static str>,
     /// How to read the transforms.
     pub convention: &'static str,
 }
@@ -300,7 +312,9 @@ impl Answer {
                 request.source.static_transforms(),
                 &[request.source.camera_frame_id().unwrap_or_default(), request.arm.base_name()],
             ),
-            assumed_joints: observations.map(|s| s.assumed_joints.clone()).unwrap_or_default(),
+            unplaced_joints: observations.map(|s| s.unplaced_joints.clone()).unwrap_or_default(),
+            stated_joints: BTreeMap::new(),
+            left_out: request.arm.left_out().iter().map(ToString::to_string).collect(),
             robot: robot.name.clone(),
             urdf_hash: robot.urdf_hash().to_owned(),
             masks: observations.is_some_and(Observations::has_masks),
@@ -375,11 +389,19 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
+/// Names of the links that were guessed.
+pub(crate) fn guessed_links(arm: &Arm) -> Vec<&'static str> {
+    let Guessed { base, end_effector } = arm.guessed();
+    let names = [(base, "base"), (end_effector, "end_effector")];
+    names.into_iter().filter_map(|(guessed, name)| guessed.then_some(name)).collect()
+}
+
 fn frames(request: &Request<'_>) -> Frames {
     Frames {
         camera: request.source.camera_frame_id().map(str::to_owned),
         base: request.arm.base_name().to_owned(),
         end_effector: request.arm.end_effector_name().to_owned(),
+        guessed: guessed_links(request.arm),
         convention: "a_from_b maps coordinates in b to coordinates in a; camera is the depth \
                      optical frame: x right, y down, z forward",
     }

@@ -57,7 +57,7 @@ pub(crate) fn observations(
         arm: arm.clone(),
         configurations: seen.into_iter().enumerate().map(configuration).collect(),
         noise,
-        assumed_joints: Vec::new(),
+        unplaced_joints: Vec::new(),
         outside_limits: Vec::new(),
         spare_configurations: 0,
         untold_frames: 0,

@@ -30,8 +30,8 @@ pub struct Observations {
     pub background: Background,
     /// By how much depth differs from one configuration to the next where nothing moved.
     pub noise: DepthNoise,
-    /// Joints of the hand that the recording does not have, and that were put at their lower limit.
-    pub assumed_joints: Vec<String>,
+    /// Joints outside the chain that the recording does not have: the links behind them take no part.
+    pub unplaced_joints: Vec<String>,
     /// Joints of the arm that were recorded outside their limits, each where it is farthest out.
     pub outside_limits: Vec<OutsideLimits>,
     /// How many more configurations the recording has, much like those that are used.

@@ -25,12 +25,13 @@ mod solids;
 mod stage;
 mod static_frames;
 mod surroundings;
+mod table;
 mod timeline;
 mod true_arm;
 mod true_view;
 mod viewpoint;
 
-pub(crate) use body::rests;
+pub(crate) use body::{placed_links, rests};
 pub use error::SimulateError;
 pub use faults::Faults;
 pub use lab::{Lab, SecondArm};

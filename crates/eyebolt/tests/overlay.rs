@@ -63,7 +63,7 @@ fn observations(width: u32, height: u32) -> Observations {
         arm,
         noise: DepthNoise::learn(&[&configuration.depth]),
         configurations: vec![configuration],
-        assumed_joints: Vec::new(),
+        unplaced_joints: Vec::new(),
         outside_limits: Vec::new(),
         spare_configurations: 0,
         untold_frames: 0,

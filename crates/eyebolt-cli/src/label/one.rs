@@ -6,6 +6,7 @@ use super::told::{Labelled, Told};
 use crate::calibrate;
 use crate::output;
 use crate::progress::Counting;
+use crate::robots::told;
 use anyhow::{Context, Result, bail};
 use eyebolt::dataset::{
     Calibrated, DatasetFrame, Description, FillError, LabelRun, RecordingEntry, Shard, Store, fill,
@@ -45,7 +46,8 @@ impl<'a> Labelling<'a> {
     pub fn label(&self, path: &Path) -> Result<Told> {
         let arguments = self.arguments;
         let recording = Recording::open(path, &arguments.bag.options())?;
-        let arm = arguments.robot.arm(path, &recording)?;
+        let arm = told(arguments.robot.arm(path, &recording)?);
+        let recording = arguments.robot.noted(recording, &arm)?;
         let end_effector = EndEffector::of(&arm)?;
         let options = RecordOptions { use_masks: !arguments.no_masks, ..RecordOptions::default() };
         let (source, cache) = (recording.source(), arguments.cache.open());

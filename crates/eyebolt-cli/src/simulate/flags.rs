@@ -2,15 +2,14 @@
 
 use super::lab_flags::LabArguments;
 use super::numbers::{number, pair, range};
-use crate::inputs::packages;
+use crate::robots::{Described, DescriptionArguments, told};
 use crate::shell::quoted;
-use anyhow::{Context, Result, bail};
+use anyhow::Result;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use eyebolt::robots::{BUILT_IN, BuiltIn};
+use eyebolt::robots::BuiltIn;
 use eyebolt::simulate::{Faults, PRESETS, Preset, Ranges, Viewpoint};
 use eyebolt_render::Sensor;
-use eyebolt_robot::{Arm, Robot};
-use std::path::Path;
+use eyebolt_robot::Arm;
 
 /// Parses the name of a sensor.
 pub fn sensor() -> impl TypedValueParser<Value = Sensor> {
@@ -21,7 +20,8 @@ pub fn sensor() -> impl TypedValueParser<Value = Sensor> {
 /// Which robot.
 #[derive(Debug, clap::Args)]
 pub struct RobotArguments {
-    /// A robot that comes with the program (shackle, davit, capstan, cleat), or a URDF with its meshes
+    /// A robot that comes with the program (shackle, davit, capstan, cleat), a URDF or xacro file with its
+    /// meshes, or a robot that is installed for ROS
     #[arg(long, value_name = "NAME|URDF", default_value = "shackle")]
     robot: String,
     /// Base link; otherwise guessed
@@ -30,10 +30,8 @@ pub struct RobotArguments {
     /// End-effector link; otherwise guessed
     #[arg(long, value_name = "LINK")]
     end_effector: Option<String>,
-    /// Where package:// leads: a folder of packages, or NAME=FOLDER; may be repeated.
-    /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too
-    #[arg(long, value_name = "[NAME=]FOLDER")]
-    package_path: Vec<String>,
+    #[command(flatten)]
+    description: DescriptionArguments,
 }
 
 /// An arm with the text that describes it.
@@ -49,37 +47,20 @@ impl RobotArguments {
             return String::new();
         }
         let robot = format!(" --robot {}", quoted(&self.robot));
-        let packages =
-            self.package_path.iter().map(|path| format!(" --package-path {}", quoted(path)));
-        robot + &packages.collect::<String>()
+        let DescriptionArguments { package_path, xacro_arg } = &self.description;
+        let packages = package_path.iter().map(|path| format!(" --package-path {}", quoted(path)));
+        let arguments = xacro_arg
+            .iter()
+            .map(|(name, value)| format!(" --xacro-arg {}", quoted(&format!("{name}={value}"))));
+        robot + &packages.chain(arguments).collect::<String>()
     }
 
     pub fn read(&self) -> Result<DescribedArm> {
-        let (robot, urdf, about) = match BuiltIn::named(&self.robot) {
-            Some(known) => {
-                let arm = known.arm();
-                (arm.robot().clone(), known.urdf.to_owned(), Some(known.about()))
-            }
-            None => {
-                let path = Path::new(&self.robot);
-                if !path.exists() {
-                    let known: Vec<&str> = BUILT_IN.iter().map(|robot| robot.name).collect();
-                    bail!(
-                        "--robot {}: no such file, nor a robot that comes with the program ({}). \
-                         Name one of them, or a URDF",
-                        self.robot,
-                        known.join(", ")
-                    );
-                }
-                let robot = Robot::from_urdf_file(path, &packages(&self.package_path))?;
-                let failed = || format!("{}: cannot read the URDF", path.display());
-                (robot, std::fs::read_to_string(path).with_context(failed)?, None)
-            }
-        };
+        let Described { robot, text: urdf, about } = self.description.named(&self.robot)?;
         let known = about.as_ref();
         let base = self.base.as_deref().or(known.map(|about| about.base.as_str()));
         let hand = self.end_effector.as_deref().or(known.map(|about| about.end_effector.as_str()));
-        Ok(DescribedArm { arm: robot.arm(base, hand)?, urdf })
+        Ok(DescribedArm { arm: told(robot.arm(base, hand)?), urdf })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::arguments::{Arguments, Kind};
 use super::folder::ModelFolder;
-use crate::inputs::packages;
 use crate::output;
+use crate::robots::packages;
 use anyhow::{Result, bail};
 use eyebolt::dataset::Dataset;
 use eyebolt::end_effector::EndEffector;

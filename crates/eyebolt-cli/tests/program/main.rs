@@ -16,6 +16,7 @@ mod pose;
 mod program;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;
+mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
 mod simulate;

@@ -59,9 +59,8 @@ fn starts_two_centimetres_and_ten_degrees_off_come_to_the_truth() {
         let (metres, radians) = fit.camera_from_base.distance_to(&truth);
         // A side seen from the front slides along itself: the fit says so.
         let covariance = fit.information.try_inverse().unwrap() * fit.deviation_m.powi(2);
-        let deviation = |first: usize| {
-            (first..first + 3).map(|at| covariance[(at, at)]).sum::<f64>().sqrt()
-        };
+        let deviation =
+            |first: usize| (first..first + 3).map(|at| covariance[(at, at)]).sum::<f64>().sqrt();
         let near = metres < 4.0 * deviation(0) + 0.0005;
         if near && radians < 4.0 * deviation(3) + 0.005 {
             found += 1;

@@ -2,6 +2,7 @@
 
 use super::guess;
 use crate::error::RobotError;
+use crate::flaw::LeftOut;
 use crate::input::Input;
 use crate::joint_positions::JointPositions;
 use crate::robot::{Joint, JointKind, Robot};
@@ -10,15 +11,26 @@ use std::collections::BTreeSet;
 /// A robot with a base link and an end-effector link: the frames of a calibration.
 #[derive(Clone, Debug)]
 pub struct Arm {
-    pub(super) robot: Robot,
-    pub(super) base: usize,
+    pub(crate) robot: Robot,
+    pub(crate) base: usize,
     pub(super) end_effector: usize,
     /// Per link: whether it is the base or hangs below it.
     pub(super) below_base: Vec<bool>,
     /// Per link: whether it is the end-effector or hangs below it.
-    pub(super) below_end_effector: Vec<bool>,
+    pub(crate) below_end_effector: Vec<bool>,
     /// Joints from the base down to the end-effector, fixed ones included.
-    pub(super) chain: Vec<usize>,
+    pub(crate) chain: Vec<usize>,
+    pub(crate) left_out: Vec<LeftOut>,
+    pub(super) guessed: Guessed,
+}
+
+/// Which of an arm's links nobody named.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Guessed {
+    /// The base link.
+    pub base: bool,
+    /// The end-effector link.
+    pub end_effector: bool,
 }
 
 /// A joint position that its limits do not allow: wrong units, or another joint's value.
@@ -40,12 +52,15 @@ impl Robot {
     /// The arm between two links; `None` lets it be guessed.
     ///
     /// The guessed base is the first link with geometry on the way down from the root through fixed
-    /// joints. The guessed end-effector is the first link with geometry after the last joint of the
-    /// longest chain, or, where a gripper's joints follow, the link that carries them.
+    /// joints, or a link called `base_link` above that. The guessed end-effector is the first link
+    /// with geometry after the last joint of the longest chain, or, where a gripper's joints follow,
+    /// the link that carries them. Parts of the description that are wrong and that the arm does not
+    /// need are left out: see [`Arm::left_out`].
     ///
     /// # Errors
     /// A link that does not exist, an end-effector that is not below the base through at least one
-    /// moving joint, or a guess with more than one answer: the error lists the candidates.
+    /// moving joint, a part of the arm whose description is wrong, or a guess with more than one
+    /// answer: the error lists the candidates.
     pub fn arm(&self, base: Option<&str>, end_effector: Option<&str>) -> Result<Arm, RobotError> {
         Arm::new(self.clone(), base, end_effector)
     }
@@ -70,16 +85,34 @@ impl Arm {
         };
         let (base, end_effector) =
             (named(base, Input::BASE)?, named(end_effector, Input::END_EFFECTOR)?);
+        let guessed = Guessed { base: base.is_none(), end_effector: end_effector.is_none() };
         let base = base.map_or_else(|| guess::base(&robot, end_effector), Ok)?;
         let end_effector = end_effector.map_or_else(|| guess::end_effector(&robot, base), Ok)?;
-        Self::between(robot, base, end_effector)
+        Self::between(robot, base, end_effector, guessed)
     }
 
-    fn between(robot: Robot, base: usize, end_effector: usize) -> Result<Self, RobotError> {
-        let chain = robot.chain(base, end_effector).filter(|chain| {
+    fn between(
+        robot: Robot,
+        base: usize,
+        end_effector: usize,
+        guessed: Guessed,
+    ) -> Result<Self, RobotError> {
+        let chain = robot.chain(base, end_effector);
+        let is_named = |joint: &usize, name: &str| {
+            robot.joints.get(*joint).is_some_and(|joint| joint.name == name)
+        };
+        let on_the_way = |name: &str| chain.iter().flatten().any(|joint| is_named(joint, name));
+        if let Some(error) = robot.joint_flaw(on_the_way) {
+            return Err(error.clone());
+        }
+        let chain = chain.filter(|chain| {
             chain.iter().any(|joint| robot.joints.get(*joint).is_some_and(Joint::moves))
         });
         let Some(chain) = chain else {
+            // Where nothing moves, what was wrong with a joint says more.
+            if let Some(error) = robot.joint_flaw(|_| true) {
+                return Err(error.clone());
+            }
             let name = |link: usize| robot.links.get(link).map_or("", |l| &l.name).to_owned();
             return Err(RobotError::NoArm {
                 file: robot.source.clone(),
@@ -89,7 +122,19 @@ impl Arm {
         };
         let below_base = robot.at_or_below(base);
         let below_end_effector = robot.at_or_below(end_effector);
-        Ok(Self { robot, base, end_effector, below_base, below_end_effector, chain })
+        let left_out = Vec::new();
+        Self { robot, base, end_effector, below_base, below_end_effector, chain, left_out, guessed }
+            .without_flaws()
+    }
+
+    /// Parts of the description that are wrong, and left out since this arm does not need them.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
+    }
+
+    /// Which of base and end-effector nobody named.
+    pub fn guessed(&self) -> Guessed {
+        self.guessed
     }
 
     /// The whole robot.

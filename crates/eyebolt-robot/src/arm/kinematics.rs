@@ -20,6 +20,15 @@ pub struct PosesWithDefaults {
     pub unplaced_joints: Vec<String>,
 }
 
+/// Poses of the links that the recorded positions decide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownPoses {
+    /// `base_from_link` per link.
+    pub base_from_links: LinkPoses,
+    /// Joints without a position; the links behind them have no pose.
+    pub unplaced_joints: Vec<String>,
+}
+
 impl Arm {
     /// Pose of every link whose place the base decides: links below it, and links that fixed joints
     /// connect to it from above.
@@ -70,6 +79,21 @@ impl Arm {
         }
         let base_from_links = self.place(&values);
         Ok(PosesWithDefaults { base_from_links, defaulted_joints, unplaced_joints })
+    }
+
+    /// As [`Arm::link_poses`], but joints outside the chain may be missing: links behind them have no
+    /// pose.
+    ///
+    /// # Errors
+    /// As [`Arm::link_poses`], without [`KinematicsError::MissingOtherJoints`].
+    pub fn known_link_poses(
+        &self,
+        positions: &JointPositions,
+    ) -> Result<KnownPoses, KinematicsError> {
+        self.check_arm(positions)?;
+        let unplaced_joints = self.missing(self.moving_joints_below_base(), positions);
+        let base_from_links = self.place(&self.joint_values(positions)?);
+        Ok(KnownPoses { base_from_links, unplaced_joints })
     }
 
     /// Pose of the end-effector link; needs only [`Arm::required_joints`].
@@ -143,7 +167,7 @@ impl Arm {
         positions: &JointPositions,
     ) -> Result<Vec<Option<f64>>, KinematicsError> {
         let mut values: Vec<_> =
-            self.robot.joints.iter().map(|joint| (!joint.moves()).then_some(0.0)).collect();
+            self.robot.joints.iter().map(|joint| joint.is_fixed().then_some(0.0)).collect();
         for joint in self.moving_joints_below_base() {
             if let Some(value) = values.get_mut(joint) {
                 *value = self.value(joint, positions)?;
@@ -162,7 +186,7 @@ impl Arm {
         }
         // Up from the base, as far as joints are fixed.
         while let Some((parent, joint)) = self.robot.links.get(link).and_then(|link| link.parent) {
-            let Some(joint) = self.robot.joints.get(joint).filter(|joint| !joint.moves()) else {
+            let Some(joint) = self.robot.joints.get(joint).filter(|joint| joint.is_fixed()) else {
                 break;
             };
             pose = pose * joint.parent_from_child_at_zero.inverse();

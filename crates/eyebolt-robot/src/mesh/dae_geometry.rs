@@ -5,6 +5,7 @@ use crate::xml::child;
 use nalgebra::Point3;
 use roxmltree::Node;
 use std::collections::HashMap;
+use std::iter::Peekable;
 use std::str::SplitAsciiWhitespace;
 
 type ById<'a, 'i> = HashMap<&'a str, Node<'a, 'i>>;
@@ -111,7 +112,7 @@ fn positions<'a, 'i>(url: &str, by_id: &ById<'a, 'i>) -> Result<Vec<Point3<f64>>
             .parse::<usize>()
             .map_err(|_| format!("accessor of `{position}`, {name}: `{text}` is not a count")),
     };
-    let (count, stride, offset) = (number("count", 0)?, number("stride", 1)?, number("offset", 0)?);
+    let (stride, offset) = (number("stride", 1)?, number("offset", 0)?);
     if stride < 3 {
         return Err(format!("accessor of `{position}`: stride {stride}, but a position has 3"));
     }
@@ -120,21 +121,22 @@ fn positions<'a, 'i>(url: &str, by_id: &ById<'a, 'i>) -> Result<Vec<Point3<f64>>
     for _ in 0..offset {
         words.next().ok_or_else(|| format!("`{position}` ends before its offset {offset}"))?;
     }
-    // The announced count is not trusted with memory: the list grows as numbers come.
+    // The data count, not the announcement: exporters count floats where positions belong.
+    let mut words = words.peekable();
     let mut read = Vec::new();
-    while read.len() < count {
-        let point = position_of(&mut words, stride, read.len() + 1 == count);
-        read.push(point.map_err(|problem| {
-            format!("`{position}`: position {} of {count}: {problem}", read.len())
-        })?);
+    while words.peek().is_some() {
+        let point = position_of(&mut words, stride);
+        read.push(
+            point.map_err(|problem| format!("`{position}`: position {}: {problem}", read.len()))?,
+        );
     }
     Ok(read)
 }
 
+/// The next position; what else belongs to it may be missing at the end.
 fn position_of(
-    words: &mut SplitAsciiWhitespace<'_>,
+    words: &mut Peekable<SplitAsciiWhitespace<'_>>,
     stride: usize,
-    last: bool,
 ) -> Result<Point3<f64>, String> {
     let mut number = || {
         let word = words.next().ok_or_else(|| "the array is cut off".to_owned())?;
@@ -144,11 +146,7 @@ fn position_of(
         }
     };
     let point = Point3::new(number()?, number()?, number()?);
-    for _ in 3..stride {
-        if words.next().is_none() && !last {
-            return Err("the array is cut off".to_owned());
-        }
-    }
+    words.by_ref().take(stride - 3).for_each(drop);
     Ok(point)
 }
 
@@ -162,7 +160,6 @@ fn faces(
     if child(primitive, "ph").is_some() {
         return Err(fault("polygons with holes are not read; triangulate the mesh".to_owned()));
     }
-    let before = triangles.len();
     let tag = primitive.tag_name().name();
     for list in primitive.children().filter(|child| child.tag_name().name() == "p") {
         let corners = corners(list.text().unwrap_or_default(), input).map_err(fault)?;
@@ -174,15 +171,7 @@ fn faces(
         }
         check_count(triangles.len())?;
     }
-    // A list that was cut off at a triangle is noticed only by the count beside it.
-    let announced = primitive.attribute("count").filter(|_| tag == "triangles");
-    let found = triangles.len() - before;
-    match announced {
-        Some(count) if count.trim().parse() != Ok(found) => {
-            Err(fault(format!("count: {count} triangles are announced, but there are {found}")))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 fn thirds(corners: &[u32]) -> Result<&[[u32; 3]], String> {

@@ -31,7 +31,7 @@ pub enum MeshError {
     },
     /// Not a format that is read.
     #[error(
-        "{}: meshes of type `{extension}` are not read; convert it to STL, OBJ or DAE",
+        "{}: meshes of type `{extension}` are not read; convert it to STL, OBJ, DAE or GLB",
         path.display()
     )]
     UnsupportedFormat {

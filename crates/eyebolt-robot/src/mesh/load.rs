@@ -3,7 +3,7 @@
 use super::error::{Fault, MeshError, check_count};
 use super::raw::RawMesh;
 use super::triangles::TriangleMesh;
-use super::{dae, obj, primitives, stl, weld};
+use super::{dae, gltf, obj, primitives, stl, weld};
 use crate::robot::{Body, Link, Shape};
 use nalgebra::Point3;
 use std::fs::File;
@@ -36,7 +36,7 @@ impl Prefer {
 
 /// Mesh of a body, metres, in its link's frame.
 ///
-/// STL, OBJ and DAE are read; of a DAE, its unit and the transforms of its scene are applied and
+/// STL, OBJ, DAE, glTF and GLB are read; of a DAE, its unit and the transforms of its scene are applied and
 /// its `up_axis` is not, as in RViz. Round shapes become facets that lie at most 0.2 mm inside.
 ///
 /// # Errors
@@ -45,8 +45,8 @@ pub fn load_body(body: &Body) -> Result<TriangleMesh, MeshError> {
     let (raw, scale, name) = match &body.shape {
         Shape::Mesh { path, scale } => {
             let name = path.display().to_string();
-            let (format, bytes) = read_mesh_file(path)?;
-            (parse(format, &bytes).map_err(|fault| fault.named(name.clone()))?, *scale, name)
+            let file = read_mesh_file(path)?;
+            (parse(&file).map_err(|fault| fault.named(name.clone()))?, *scale, name)
         }
         shape => {
             let name = primitives::name(shape).to_owned();
@@ -92,6 +92,15 @@ pub(crate) enum Format {
     Stl,
     Obj,
     Dae,
+    Gltf,
+}
+
+/// What a mesh file holds, unread.
+pub(crate) struct MeshFile {
+    pub(crate) format: Format,
+    pub(crate) bytes: Vec<u8>,
+    /// Files beside it that hold its numbers.
+    pub(crate) beside: Vec<Vec<u8>>,
 }
 
 impl Format {
@@ -102,14 +111,29 @@ impl Format {
             "stl" | "stla" | "stlb" => Ok(Self::Stl),
             "obj" => Ok(Self::Obj),
             "dae" => Ok(Self::Dae),
+            "gltf" | "glb" => Ok(Self::Gltf),
             _ => Err(MeshError::UnsupportedFormat { path: path.to_owned(), extension }),
         }
     }
 }
 
-/// Format and whole content of a mesh file; what is too much by its length or its header is not read.
-pub(crate) fn read_mesh_file(path: &Path) -> Result<(Format, Vec<u8>), MeshError> {
+/// Whole content of a mesh file; what is too much by its length or its header is not read.
+pub(crate) fn read_mesh_file(path: &Path) -> Result<MeshFile, MeshError> {
     let format = Format::of(path)?;
+    let bytes = read_file(path, format)?;
+    let names = match format {
+        Format::Gltf => {
+            let names = gltf::buffer_files(&bytes);
+            names.map_err(|fault| fault.named(path.display().to_string()))?
+        }
+        _ => Vec::new(),
+    };
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let beside = names.iter().map(|name| read_file(&folder.join(name), format));
+    Ok(MeshFile { format, beside: beside.collect::<Result<_, _>>()?, bytes })
+}
+
+fn read_file(path: &Path, format: Format) -> Result<Vec<u8>, MeshError> {
     let failed = |source| MeshError::Read { path: path.to_owned(), source };
     let file = File::open(path).map_err(failed)?;
     let bytes = file.metadata().map_err(failed)?.len();
@@ -130,13 +154,15 @@ pub(crate) fn read_mesh_file(path: &Path) -> Result<(Format, Vec<u8>), MeshError
     if content.len() as u64 > MAX_MESH_BYTES {
         return Err(too_large(content.len() as u64));
     }
-    Ok((format, content))
+    Ok(content)
 }
 
-fn parse(format: Format, bytes: &[u8]) -> Result<RawMesh, Fault> {
-    match format {
+fn parse(file: &MeshFile) -> Result<RawMesh, Fault> {
+    let bytes = &file.bytes;
+    match file.format {
         Format::Stl => stl::read(bytes),
         Format::Obj => obj::read(bytes),
         Format::Dae => dae::read(bytes),
+        Format::Gltf => gltf::read(bytes, &file.beside),
     }
 }

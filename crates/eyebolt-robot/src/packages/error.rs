@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum ResolveError {
     /// No such file in any of the places.
-    #[error("mesh `{url}` not found; looked for {}; {remedy}", places(looked_at))]
+    #[error("mesh `{url}` not found{}; {remedy}", places(looked_at))]
     NotFound {
         /// As the URDF has it.
         url: String,
@@ -19,12 +19,12 @@ pub enum ResolveError {
         remedy: Remedy,
     },
     /// The path leaves its package.
-    #[error(
-        "mesh `{url}` leaves its package by `..`; write package://NAME/path without leaving NAME"
-    )]
+    #[error("mesh `{url}` leaves by `..` the folder that it starts in; {remedy}")]
     Escapes {
         /// As the URDF has it.
         url: String,
+        /// What to do.
+        remedy: Remedy,
     },
     /// The file is there, but a description that came with a recording may not name it.
     #[error(
@@ -58,16 +58,17 @@ impl ResolveError {
     /// The input that would help.
     pub fn input(&self) -> Option<Input> {
         match self {
-            Self::NotFound { remedy, .. } => remedy.input(),
+            Self::NotFound { remedy, .. } | Self::Escapes { remedy, .. } => remedy.input(),
             Self::Outside { .. } => Some(Input::PACKAGE_PATH),
-            Self::Escapes { .. } | Self::Unsupported { .. } => Some(Input::ROBOT),
+            Self::Unsupported { .. } => Some(Input::ROBOT),
         }
     }
 }
 
 fn places(paths: &[PathBuf]) -> String {
     if paths.is_empty() {
-        return "it nowhere: no folders are known".to_owned();
+        return ": no folder of packages is known".to_owned();
     }
-    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
+    let paths: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
+    format!("; looked for {}", paths.join(", "))
 }

@@ -2,7 +2,7 @@
 
 use super::form::Info;
 use eyebolt_recording::{DepthChoice, FrameSource, counted};
-use eyebolt_robot::Input;
+use eyebolt_robot::{Input, joint_prefix};
 
 /// Fewer configurations are refused; and as many make a good answer.
 const FEWEST: usize = 3;
@@ -80,9 +80,13 @@ fn robot(info: &Info, advice: &mut Advice) {
     };
     if !robot.missing_joints.is_empty() {
         let one = robot.missing_joints.len() == 1;
+        let prefix = joint_prefix(&robot.missing_joints, &info.joints);
+        let prefix = prefix.map_or(String::new(), |prefix| {
+            format!("; their names differ by `{prefix}`: give {} {prefix}", Input::JOINT_PREFIX)
+        });
         advice.need(format!(
             "{} {} of the arm {} not recorded: record {}, or give the URDF of the robot that was \
-             recorded",
+             recorded{prefix}",
             if one { "joint" } else { "joints" },
             robot.missing_joints.join(", "),
             if one { "is" } else { "are" },
@@ -97,13 +101,16 @@ fn robot(info: &Info, advice: &mut Advice) {
     for outside in &robot.outside_limits {
         advice.need(outside.to_string());
     }
-    if !robot.assumed_joints.is_empty() {
-        let one = robot.assumed_joints.len() == 1;
+    if !robot.unplaced_joints.is_empty() {
+        let one = robot.unplaced_joints.len() == 1;
         advice.add(format!(
-            "{} {} outside the arm's chain {} not recorded: taken at the lower limit",
+            "{} {} outside the arm's chain {} not recorded: {} links take no part, unless {} says where {}",
             if one { "joint" } else { "joints" },
-            robot.assumed_joints.join(", "),
+            robot.unplaced_joints.join(", "),
             if one { "is" } else { "are" },
+            if one { "its" } else { "their" },
+            Input::JOINT,
+            if one { "it stands" } else { "they stand" },
         ));
     }
 }

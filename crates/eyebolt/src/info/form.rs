@@ -114,10 +114,14 @@ pub struct RobotFit {
     pub base: String,
     /// Its end-effector link.
     pub end_effector: String,
+    /// Which of `base` and `end_effector` nobody named, so that they were guessed.
+    pub guessed: Vec<&'static str>,
+    /// Parts of the description that are wrong and that the arm does not need, a sentence each.
+    pub left_out: Vec<String>,
     /// Joints of the arm that are not recorded.
     pub missing_joints: Vec<String>,
-    /// Other joints below the base that are not recorded: fingers, for example.
-    pub assumed_joints: Vec<String>,
+    /// Other joints below the base that are not recorded, such as fingers: their links take no part.
+    pub unplaced_joints: Vec<String>,
     /// Recorded joints that the robot does not have.
     pub unknown_joints: Vec<String>,
     /// Joints recorded outside their limits.

@@ -3,6 +3,7 @@
 use super::advice;
 use super::depth::depth_statistics;
 use super::form::{Clock, Configuration, Dropped, Frames, Info, RobotFit, SCHEMA, Untold};
+use crate::answer::guessed_links;
 use crate::joint_limits::WorstOutside;
 use crate::record::{Group, Groups, MOST_CONFIGURATIONS, RecordError, group_frames};
 use eyebolt_recording::{FrameSource, Provenance, RecordingError};
@@ -117,8 +118,10 @@ fn fit(source: &dyn FrameSource, arm: &Arm) -> Result<RobotFit, RecordingError> 
         name: arm.robot().name.clone(),
         base: arm.base_name().to_owned(),
         end_effector: arm.end_effector_name().to_owned(),
+        guessed: guessed_links(arm),
+        left_out: arm.left_out().iter().map(ToString::to_string).collect(),
         missing_joints: Vec::new(),
-        assumed_joints: Vec::new(),
+        unplaced_joints: Vec::new(),
         unknown_joints: Vec::new(),
         outside_limits: Vec::new(),
         untold_joints: Vec::new(),
@@ -133,7 +136,7 @@ fn fit(source: &dyn FrameSource, arm: &Arm) -> Result<RobotFit, RecordingError> 
         for name in arm.required_joints().into_iter().filter(lacking) {
             *missing.entry(name).or_insert(0) += 1;
         }
-        add_new(&mut fit.assumed_joints, arm.other_joints().into_iter().filter(lacking));
+        add_new(&mut fit.unplaced_joints, arm.other_joints().into_iter().filter(lacking));
         let unknown = arm.unknown_joints(&joints);
         add_new(&mut fit.unknown_joints, unknown.iter().map(String::as_str));
     }

@@ -82,16 +82,16 @@ fn untold(source: &dyn FrameSource, frame: &str, error: KinematicsError) -> Reco
 pub(crate) struct Placement {
     pub(crate) base_from_links: LinkPoses,
     pub(crate) base_from_end_effector: Transform<Base, EndEffector>,
-    pub(crate) assumed_joints: Vec<String>,
+    pub(crate) unplaced_joints: Vec<String>,
     pub(crate) joints: JointPositions,
 }
 
 fn place(arm: &Arm, joints: &JointPositions) -> Result<Placement, KinematicsError> {
-    let poses = arm.link_poses_with_defaults(joints)?;
+    let poses = arm.known_link_poses(joints)?;
     Ok(Placement {
         base_from_links: poses.base_from_links,
         base_from_end_effector: arm.base_from_end_effector(joints)?,
-        assumed_joints: poses.defaulted_joints,
+        unplaced_joints: poses.unplaced_joints,
         joints: joints.clone(),
     })
 }

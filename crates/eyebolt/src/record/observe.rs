@@ -70,7 +70,7 @@ pub fn observe(
         configurations,
         background,
         noise,
-        assumed_joints: first.first.assumed_joints.clone(),
+        unplaced_joints: first.first.unplaced_joints.clone(),
         outside_limits: outside.of_arm(arm),
         spare_configurations: groups.len() - chosen.len(),
         untold_frames,

@@ -11,7 +11,7 @@ pub(crate) fn posture(
     model: &ArmModel,
     joints: &JointPositions,
 ) -> Result<Option<Posture>, KinematicsError> {
-    let poses = arm.link_poses_with_defaults(joints)?.base_from_links;
+    let poses = arm.known_link_poses(joints)?.base_from_links;
     let robot = arm.robot();
     let pose = |name: &str| poses.get(robot.link_index(name)?).copied().flatten();
     let base_from_links: Option<Vec<_>> =

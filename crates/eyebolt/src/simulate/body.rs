@@ -4,12 +4,14 @@ use super::dress::Soft;
 use super::error::SimulateError;
 use super::scene::TABLE_BELOW_M;
 use super::solids::Solid;
+use super::table;
+use super::viewpoint::EndEffectors;
 use crate::record;
 use eyebolt_geometry::{Base, Camera, Link, Transform};
 use eyebolt_registration::{ArmModel, LinkCache, Posture};
 use eyebolt_render::{Random, SceneMesh};
 use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// An arm with the shapes of its links.
 pub(super) struct ArmBody {
@@ -23,8 +25,11 @@ pub(super) struct ArmBody {
     pub(super) is_end_effector: Vec<bool>,
     /// Pairs of links that may touch: neighbours, and those that always do.
     may_touch: Vec<(usize, usize)>,
-    /// Of the model's links, those that no joint moves.
-    rests: Vec<bool>,
+    /// Of the model's links, those that the joints of the chain and of the hand move. The others (what
+    /// the arm stands on, wheels, a head, a second arm) stay where they are.
+    moved: Vec<bool>,
+    /// Height of the table's top, base frame, metres.
+    table_m: f64,
     /// Around each of the model's links: centre in its frame, radius, metres.
     spheres: Vec<(Point3<f32>, f32)>,
 }
@@ -39,8 +44,7 @@ impl ArmBody {
     /// `arm` with `soft` parts on it, that are seen and give way.
     pub(super) fn new(arm: Arm, soft: &[Soft], cache: &LinkCache) -> Result<Self, SimulateError> {
         let robot = arm.robot();
-        let below = (0..robot.links.len()).filter(|link| arm.is_below_base(*link));
-        let (links, model) = record::shapes(&arm, below.collect(), cache)?;
+        let (links, model) = record::shapes(&arm, placed_links(&arm), cache)?;
         let meshes = links.iter().map(|index| {
             let mut link = robot.links[*index].clone();
             let on_it = soft.iter().filter(|part| part.link == *index);
@@ -51,10 +55,12 @@ impl ArmBody {
         });
         let meshes: Vec<TriangleMesh> = meshes.collect::<Result<_, record::RecordError>>()?;
         let end_effector = arm.end_effector_links();
-        let resting = links.iter().map(|link| rests(&arm, *link));
+        let drawn = drawn_joints(&arm);
+        let moved = links.iter().map(|link| is_moved(&arm, &drawn, *link));
         let mut body = Self {
             is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
-            rests: resting.collect(),
+            moved: moved.collect(),
+            table_m: -TABLE_BELOW_M,
             spheres: meshes.iter().map(sphere).collect(),
             arm,
             may_touch: Vec::new(),
@@ -62,7 +68,11 @@ impl ArmBody {
             model,
             meshes,
         };
-        body.may_touch = body.mostly_touching();
+        let random = Random::new(0);
+        let drawn = (0..TRIALS).map(|trial| body.any_joints(&mut random.at(trial)));
+        let trials: Vec<Posture> = drawn.filter_map(|joints| body.posture(&joints)).collect();
+        body.may_touch = body.mostly_touching(&trials);
+        body.table_m = body.table_under(&trials);
         Ok(body)
     }
 
@@ -78,11 +88,50 @@ impl ArmBody {
         posed.map(|(mesh, pose)| SceneMesh { mesh, base_from_mesh: *pose }).collect()
     }
 
-    /// Joint positions anywhere within their limits, fingers included.
+    /// Where each of the model's links reaches down to in `postures`, and what is moved.
+    fn table_under(&self, postures: &[Posture]) -> f64 {
+        let low = |link: usize, posture: &Posture| {
+            let heights = self.link_surface(posture, link).map(|point| f64::from(point.z));
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        let lows = (0..self.links.len()).map(|link| {
+            let lows = postures.iter().map(|posture| low(link, posture)).collect();
+            table::Lows { lows, moved: self.moved[link] }
+        });
+        table::top(&lows.collect::<Vec<_>>(), f64::from(CLEARANCE_M))
+    }
+
+    /// How much higher than usual the table is: not at all, or lower.
+    pub(super) fn table_above_usual_m(&self) -> f64 {
+        self.table_m + TABLE_BELOW_M
+    }
+
+    /// Where the end-effector goes; `None` if nowhere.
+    pub(super) fn end_effectors(&self) -> Option<EndEffectors> {
+        const DRAWN: u64 = 500;
+        let random = Random::new(0);
+        let at = |place: u64| {
+            let joints = self.any_joints(&mut random.at(place));
+            Some(self.arm.base_from_end_effector(&joints).ok()?.translation_m())
+        };
+        let places: Vec<Vector3<f64>> = (0..DRAWN).filter_map(at).collect();
+        let middle = places.iter().sum::<Vector3<f64>>() / places.len().max(1) as f64;
+        let mut far: Vec<f64> = places.iter().map(|place| (place - middle).norm()).collect();
+        far.sort_by(f64::total_cmp);
+        let far_m = *far.get(far.len() * 9 / 10)?;
+        Some(EndEffectors { middle, far_m })
+    }
+
+    /// Joint positions anywhere within their limits, fingers included; joints of other limbs stay where
+    /// they are by default.
     pub(super) fn any_joints(&self, random: &mut Random) -> JointPositions {
         let robot = self.arm.robot();
         let names = [self.arm.required_joints(), self.arm.other_joints()].concat();
+        let free = drawn_joints(&self.arm);
         let drawn = names.into_iter().map(|name| {
+            if !free.contains(&name) {
+                return (name.to_owned(), self.arm.default_position(name));
+            }
             let limits = robot.joint_index(name).and_then(|index| robot.joints[index].limits);
             let (low, high) = limits.map_or((-3.0, 3.0), |limits| (limits.lower, limits.upper));
             // Clear of the stops, where arms refuse to go. Limits that nobody filled in leave no room.
@@ -129,15 +178,17 @@ impl ArmBody {
     }
 
     fn sinks(&self, posture: &Posture) -> bool {
-        let table = -TABLE_BELOW_M as f32 + CLEARANCE_M;
+        let table = self.table_m as f32 + CLEARANCE_M;
         (0..self.links.len())
-            .filter(|link| !self.rests[*link])
+            .filter(|link| self.moved[*link])
             .any(|link| self.link_surface(posture, link).any(|point| point.z < table))
     }
 
     fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let count = self.links.len();
-        (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
+        let all = (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
+        // What does not move does not begin to touch.
+        all.filter(|(a, b)| self.moved[*a] || self.moved[*b])
     }
 
     fn touch(&self, posture: &Posture, (a, b): (usize, usize)) -> bool {
@@ -168,10 +219,7 @@ impl ArmBody {
         (a - b).norm() > radius_a + radius_b + 2.0 * CLEARANCE_M
     }
 
-    fn mostly_touching(&self) -> Vec<(usize, usize)> {
-        let random = Random::new(0);
-        let drawn = (0..TRIALS).map(|trial| self.any_joints(&mut random.at(trial)));
-        let postures: Vec<Posture> = drawn.filter_map(|joints| self.posture(&joints)).collect();
+    fn mostly_touching(&self, postures: &[Posture]) -> Vec<(usize, usize)> {
         let neighbours = |(a, b): (usize, usize)| {
             let robot = self.arm.robot();
             let parent = |link: usize| robot.links[self.links[link]].parent.map(|(above, _)| above);
@@ -195,12 +243,50 @@ impl ArmBody {
     }
 }
 
+/// The links below the base whose place positions of joints tell: what hangs on a joint of another kind is
+/// nowhere.
+pub fn placed_links(arm: &Arm) -> Vec<usize> {
+    let names = [arm.required_joints(), arm.other_joints()].concat();
+    let anywhere = names.iter().map(|name| ((*name).to_owned(), arm.default_position(name)));
+    let poses = arm.known_link_poses(&anywhere.collect()).map(|known| known.base_from_links);
+    let poses = poses.unwrap_or_default().into_iter().enumerate();
+    let placed = poses.filter_map(|(link, pose)| pose.map(|_| link));
+    placed.filter(|link| arm.is_below_base(*link)).collect()
+}
+
+/// Names of the joints that postures differ in: those of the chain and of the hand.
+fn drawn_joints(arm: &Arm) -> Vec<&str> {
+    let (robot, hand) = (arm.robot(), arm.end_effector_links());
+    let of_hand = |name: &&str| {
+        robot.joint_index(name).is_some_and(|joint| hand.contains(&robot.joints[joint].parent))
+    };
+    let others = arm.other_joints().into_iter().filter(of_hand);
+    arm.required_joints().into_iter().chain(others).collect()
+}
+
+/// Whether one of the joints called `drawn` moves `link` in the base.
+fn is_moved(arm: &Arm, drawn: &[&str], link: usize) -> bool {
+    let robot = arm.robot();
+    let mut at = link;
+    while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
+        let mut joint = &robot.joints[joint];
+        while let Some(mimic) = joint.mimic {
+            joint = &robot.joints[mimic.joint];
+        }
+        if drawn.contains(&joint.name.as_str()) {
+            return true;
+        }
+        at = parent;
+    }
+    false
+}
+
 /// Whether no joint moves `link`, which is below the base of `arm`, in the base.
 pub fn rests(arm: &Arm, link: usize) -> bool {
     let robot = arm.robot();
     let mut at = link;
     while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
-        if robot.joints[joint].moves() {
+        if !robot.joints[joint].is_fixed() {
             return false;
         }
         at = parent;

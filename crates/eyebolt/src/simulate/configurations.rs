@@ -45,6 +45,7 @@ const MOST_SPARE: usize = 150;
 /// Configurations drawn at most, at each anchor, and at a time.
 const MOST_DRAWN: u64 = 200_000;
 const MOST_DRAWN_ALIKE: u64 = 20_000;
+const FIRST_LOOK: u64 = 20_480;
 const BATCH: u64 = 512;
 /// Places that the joints nearer to the base are tried at where they are held.
 const ANCHORS: u64 = 12;
@@ -100,7 +101,10 @@ fn choose_wanted(
     let enough = (CHOICE * count).min(count + MOST_SPARE);
     let mut found: Vec<Pose> = Vec::new();
     let mut rejected = Rejected::default();
-    while found.len() < enough && rejected.drawn < *most_drawn {
+    // Where the first look finds nothing, the others hardly will: another view is what helps.
+    let hopeless = |found: &[Pose], drawn: u64| found.is_empty() && drawn >= FIRST_LOOK;
+    while found.len() < enough && rejected.drawn < *most_drawn && !hopeless(&found, rejected.drawn)
+    {
         let batch = (rejected.drawn..rejected.drawn + BATCH).into_par_iter().map_init(
             || [Raster::new(onlooker.camera), Raster::new(onlooker.camera)],
             |rasters, place| {

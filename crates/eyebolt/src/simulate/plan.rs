@@ -10,6 +10,7 @@ use super::solids::Solid;
 use super::stage::{Stage, stages, usual_size};
 use super::surroundings::in_place;
 use super::true_arm::true_arm;
+use super::viewpoint::Viewpoint;
 use super::{occlusion, scene, surroundings};
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
@@ -52,26 +53,10 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
-    let base_from_camera =
-        scenario.viewpoint.base_from_camera(&mut RandomStream::Viewpoint.of(seed));
+    let Seen { base_from_camera, room: mut solids, poses } = seen(&scenario, &body, &camera)?;
     let bumped = scenario.faults.bumped(&base_from_camera, &mut RandomStream::Bump.of(seed));
     let eye = base_from_camera.point(&Point3::origin());
-    let mut solids = scene::room(&mut RandomStream::Room.of(seed), &[eye], usual_size(&scenario));
     let walls = solids.len();
-    let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
-    let onlooker = Onlooker {
-        camera: &camera,
-        camera_from_base: base_from_camera.inverse(),
-        range_m: scenario.sensor.range_m,
-        told_m: [scenario.faults.depth_scale, scenario.faults.depth_offset_m],
-        room: &room,
-    };
-    let random = RandomStream::Configurations.of(seed);
-    let count = scenario.configurations;
-    let poses = match scenario.faults.wrist_only {
-        true => choose_alike(&body, &onlooker, count, random)?,
-        false => choose(&body, &onlooker, count, random)?,
-    };
     solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
     solids.extend(occlusion::before(&scenario, &body, &poses, &eye));
     let stages = stages(&scenario, &body, &poses, &eye);
@@ -87,6 +72,63 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         room: walls,
         stages,
     })
+}
+
+/// A camera, the room that it stands in, and configurations that it sees well.
+struct Seen {
+    base_from_camera: Transform<Base, Camera>,
+    room: Vec<Solid>,
+    poses: Vec<Pose>,
+}
+
+/// Where the camera stands, and what it sees. Where it sees nothing of an arm that is none of usual size
+/// on its own base, it looks at where that arm's end-effector goes.
+fn seen(
+    scenario: &Scenario<'_>,
+    body: &ArmBody,
+    camera: &PinholeCamera,
+) -> Result<Seen, SimulateError> {
+    match seen_from(scenario, body, camera, &scenario.viewpoint) {
+        Err(SimulateError::Unfit { found: 0, wanted, rejected }) => {
+            let other = match scenario.viewpoint {
+                Viewpoint::Within(ranges) => body.end_effectors().and_then(|at| ranges.about(&at)),
+                Viewpoint::Preset(_) => None,
+            };
+            let nothing = SimulateError::Unfit { found: 0, wanted, rejected };
+            let other = other.ok_or(nothing)?;
+            seen_from(scenario, body, camera, &Viewpoint::Within(other))
+        }
+        first => first,
+    }
+}
+
+fn seen_from(
+    scenario: &Scenario<'_>,
+    body: &ArmBody,
+    camera: &PinholeCamera,
+    viewpoint: &Viewpoint,
+) -> Result<Seen, SimulateError> {
+    let seed = scenario.seed;
+    let base_from_camera = viewpoint.base_from_camera(&mut RandomStream::Viewpoint.of(seed));
+    let eye = base_from_camera.point(&Point3::origin());
+    let room = scene::room(&mut RandomStream::Room.of(seed), &[eye], usual_size(scenario));
+    let above_m = body.table_above_usual_m();
+    let solids: Vec<Solid> = room.into_iter().map(|solid| solid.raised(above_m)).collect();
+    let room = RayScene::new(&solids.iter().map(in_place).collect::<Vec<_>>());
+    let onlooker = Onlooker {
+        camera,
+        camera_from_base: base_from_camera.inverse(),
+        range_m: scenario.sensor.range_m,
+        told_m: [scenario.faults.depth_scale, scenario.faults.depth_offset_m],
+        room: &room,
+    };
+    let random = RandomStream::Configurations.of(seed);
+    let count = scenario.configurations;
+    let poses = match scenario.faults.wrist_only {
+        true => choose_alike(body, &onlooker, count, random)?,
+        false => choose(body, &onlooker, count, random)?,
+    };
+    Ok(Seen { base_from_camera, room: solids, poses })
 }
 
 impl Plan<'_> {

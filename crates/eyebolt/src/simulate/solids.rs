@@ -31,6 +31,15 @@ impl Solid {
         Self { name, mesh }
     }
 
+    /// The same thing, higher by `by_m` metres.
+    pub fn raised(mut self, by_m: f64) -> Self {
+        // As it was drawn, to the last bit, where nothing is to be done.
+        if by_m != 0.0 {
+            self.mesh.vertices.iter_mut().for_each(|vertex| vertex.z += by_m as f32);
+        }
+        self
+    }
+
     /// Corners of the box around it, base frame, metres.
     pub fn bounds(&self) -> (Point3<f32>, Point3<f32>) {
         self.mesh.bounds().expect("plain shapes have vertices")

@@ -36,8 +36,10 @@ pub(super) fn stages(
         let mut random = random.at(index as u64);
         let other = random.uniform() < lab.other_rooms;
         Stage {
-            other_room: other
-                .then(|| scene::room(&mut random, std::slice::from_ref(eye), any_size(index))),
+            other_room: other.then(|| {
+                let room = scene::room(&mut random, std::slice::from_ref(eye), any_size(index));
+                room.into_iter().map(|solid| solid.raised(body.table_above_usual_m())).collect()
+            }),
             passing: passing.next().unwrap_or_default(),
             beside: beside.next().flatten(),
         }

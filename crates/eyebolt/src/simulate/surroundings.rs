@@ -27,7 +27,7 @@ pub(super) fn clutter_about(
 ) -> Vec<Solid> {
     let random = RandomStream::Clutter.of(scenario.seed);
     let fits = |solid: &Solid| is_out_of_the_way(solid, body, poses, eye);
-    put(scenario.clutter, random, clutter, fits)
+    put(scenario.clutter, random, body.table_above_usual_m(), clutter, fits)
 }
 
 /// Those who pass by while the arm of `scenario` rests in each of `poses`.
@@ -40,20 +40,23 @@ pub(super) fn passers_by(
     let random = RandomStream::PassersBy.of(scenario.seed);
     let of_pose = |(index, pose): (usize, &Pose)| {
         let fits = |solid: &Solid| is_out_of_the_way(solid, body, std::slice::from_ref(pose), eye);
-        put(scenario.faults.lab.passers_by, random.at(index as u64), passer_by, fits)
+        let (count, random) = (scenario.faults.lab.passers_by, random.at(index as u64));
+        put(count, random, body.table_above_usual_m(), passer_by, fits)
     };
     poses.iter().enumerate().map(of_pose).collect()
 }
 
-/// As many things as there is room for, of `count` that `draw` makes.
+/// As many things as there is room for, of `count` that `draw` makes, higher by `above_m`.
 fn put(
     count: usize,
     random: Random,
+    above_m: f64,
     draw: fn(&mut Random) -> Solid,
     fits: impl Fn(&Solid) -> bool + Sync,
 ) -> Vec<Solid> {
     let things = (0..count as u64).into_par_iter().filter_map(|thing| {
-        let mut tries = (0..TRIES).map(|place| draw(&mut random.at(thing).at(place)));
+        let mut tries =
+            (0..TRIES).map(|place| draw(&mut random.at(thing).at(place)).raised(above_m));
         tries.find(&fits)
     });
     things.collect()

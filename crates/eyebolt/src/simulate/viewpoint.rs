@@ -102,6 +102,35 @@ impl Default for Ranges {
     }
 }
 
+impl Ranges {
+    /// The same ranges about where the end-effector of an arm goes, `in_base`, as they are about where
+    /// arms of usual size do; `None` if they are about something else already.
+    pub(super) fn about(&self, in_base: &EndEffectors) -> Option<Self> {
+        let usual = Self::default();
+        let EndEffectors { middle, far_m } = in_base;
+        let scale = (far_m / USUAL_REACH_M).max(1.0);
+        let distance_m = match self.distance_m == usual.distance_m {
+            true => usual.distance_m.map(|metres| scale * metres),
+            false => self.distance_m,
+        };
+        let [ahead, ..] = usual.workspace_m;
+        let workspace_m = [middle.x + scale * ahead, middle.y, middle.z];
+        (self.workspace_m == usual.workspace_m).then_some(Self { workspace_m, distance_m, ..*self })
+    }
+}
+
+/// Where the end-effector of an arm goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EndEffectors {
+    /// Middle of these places, base frame, metres.
+    pub(super) middle: Vector3<f64>,
+    /// How far from there it goes in nine of ten of them, metres.
+    pub(super) far_m: f64,
+}
+
+/// How far an arm of usual size goes.
+const USUAL_REACH_M: f64 = 0.85;
+
 impl Viewpoint {
     /// The pose.
     pub fn base_from_camera(&self, random: &mut Random) -> Transform<Base, Camera> {

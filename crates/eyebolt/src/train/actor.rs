@@ -3,7 +3,7 @@
 use super::error::TrainError;
 use crate::end_effector::BoundingBox;
 use crate::record;
-use crate::simulate::rests;
+use crate::simulate::{placed_links, rests};
 use eyebolt_geometry::{Base, Camera, EndEffector, Link, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{PosedMesh, Random, Raster};
@@ -41,8 +41,7 @@ impl Actor {
     ///
     /// Shapes that cannot be read.
     pub fn new(arm: Arm, cache: &LinkCache) -> Result<Self, TrainError> {
-        let below = (0..arm.robot().links.len()).filter(|link| arm.is_below_base(*link));
-        let (links, model) = record::shapes(&arm, below.collect(), cache)?;
+        let (links, model) = record::shapes(&arm, placed_links(&arm), cache)?;
         let meshes = model.links().iter().map(|link| link.model.mesh.clone()).collect();
         Ok(Self::of(arm, links, meshes))
     }

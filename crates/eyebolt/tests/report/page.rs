@@ -141,7 +141,7 @@ fn names_from_outside_are_text() {
     answer.frames.base = EVIL.to_owned();
     answer.frames.end_effector = EVIL.to_owned();
     answer.robot = EVIL.to_owned();
-    answer.assumed_joints = vec![EVIL.to_owned()];
+    answer.unplaced_joints = vec![EVIL.to_owned()];
     let pictures: Vec<_> = overlays(&outcome, |_| None).collect();
     let context = Context { recording: EVIL, pictures: &pictures, ..Context::default() };
     let page = html(&answer, &outcome, &context);

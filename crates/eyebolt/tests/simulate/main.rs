@@ -19,4 +19,5 @@ mod robot;
 mod secrets;
 mod shapes;
 mod stage;
+mod stands;
 mod surroundings;

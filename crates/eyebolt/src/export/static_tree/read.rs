@@ -51,7 +51,7 @@ impl StaticTree {
     /// # Errors
     /// See [`StaticTree::from_edges`].
     pub fn from_robot(source: &str, robot: &Robot) -> Result<Self, ExportError> {
-        let fixed = robot.joints.iter().filter(|joint| !joint.moves());
+        let fixed = robot.joints.iter().filter(|joint| joint.is_fixed());
         let edges = fixed.filter_map(|joint| {
             let name = |link: usize| Some(robot.links.get(link)?.name.clone());
             let pose = joint.parent_from_child_at_zero;

@@ -88,11 +88,17 @@ pub(super) fn notes(answer: &Answer) -> Vec<String> {
     if answer.camera_from_base.is_some() {
         evidence(answer, &mut notes);
     }
-    if !answer.assumed_joints.is_empty() {
+    if !answer.unplaced_joints.is_empty() {
         notes.push(format!(
-            "Joints that were not recorded were put at their lower limit: {}. Links that they move were \
-             fitted there.",
-            answer.assumed_joints.join(", ")
+            "Joints that were not recorded: {}. The links that they move took no part.",
+            answer.unplaced_joints.join(", ")
+        ));
+    }
+    notes.extend(answer.left_out.iter().cloned().map(sentence));
+    if !answer.frames.guessed.is_empty() {
+        notes.push(format!(
+            "Nobody named base and end-effector both; guessed: {}.",
+            answer.frames.guessed.join(", ").replace('_', "-")
         ));
     }
     notes.extend(answer.findings().into_iter().map(sentence));
