@@ -19,6 +19,9 @@ pub struct Support {
     pub explained: f64,
     /// Of the posed shape's pixels with depth that is not in front of it, the share where the camera saw through it.
     pub seen_through: f64,
+    /// Of the posed shape's outline, the share beyond which the surface goes on as if it were not there: where it is
+    /// mounted, and all around if it is a part of something larger.
+    pub goes_on: f64,
 }
 
 /// Draws poses and compares them with a frame.
@@ -72,7 +75,40 @@ impl<'a> Judge<'a> {
                 _ => {}
             }
         }
-        sums.support()
+        Support { goes_on: self.goes_on(reach), ..sums.support() }
+    }
+
+    /// Share of the drawn outline beyond which the surface seen goes on.
+    fn goes_on(&self, reach_m: f32) -> f64 {
+        /// How far beyond, pixels: depth is uncertain at an edge.
+        const BEYOND: i64 = 2;
+        let Observed { image, .. } = self.observed;
+        let (width, height) = (image.width as i64, image.height as i64);
+        let (mut outline, mut on) = (0, 0);
+        for at in self.raster.pixels() {
+            let Some(drawn) = self.raster.depth_m(at) else { continue };
+            let seen = image.depth_m[at];
+            if (seen - drawn).abs() > reach_m {
+                continue;
+            }
+            let (u, v) = (at as i64 % width, at as i64 / width);
+            for (du, dv) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+                let place = |by: i64| {
+                    let (u, v) = (u + by * du, v + by * dv);
+                    let inside = (0..width).contains(&u) && (0..height).contains(&v);
+                    inside.then_some((v * width + u) as usize)
+                };
+                let (Some(next), Some(beyond)) = (place(1), place(1 + BEYOND)) else { continue };
+                let drawn_there = |at: usize| self.raster.depth_m(at).is_some();
+                if drawn_there(next) || drawn_there(beyond) {
+                    continue;
+                }
+                outline += 1;
+                let there = image.depth_m[beyond];
+                on += usize::from(there > 0.0 && (there - seen).abs() < reach_m);
+            }
+        }
+        f64::from(on as u32) / f64::from((outline as u32).max(1))
     }
 }
 
@@ -102,6 +138,7 @@ impl Sums {
             pixels: self.pixels,
             explained: share(self.explained, self.of_it),
             seen_through: share(self.through, self.drawn),
+            goes_on: 0.0,
         }
     }
 }

@@ -30,6 +30,11 @@ pub enum Refusal {
         /// Share of its pixels on the posed shape.
         share: f64,
     },
+    /// What was seen goes on beyond the posed shape: it is a part of something else.
+    GoesOn {
+        /// Share of its outline.
+        share: f64,
+    },
     /// The camera saw through the posed shape.
     SeenThrough {
         /// Share of its pixels.
@@ -53,6 +58,11 @@ impl fmt::Display for Refusal {
                  description?",
                 percent(share)
             ),
+            Self::GoesOn { share } => write!(
+                f,
+                "beyond {:.0} % of the shape's outline the surface goes on: it is a part of something else",
+                percent(share)
+            ),
             Self::SeenThrough { share } => {
                 write!(f, "the camera saw through {:.0} % of the shape", percent(share))
             }
@@ -68,6 +78,8 @@ const TELLING: f64 = 3.0;
 /// Least share of the end-effector's pixels on the shape, and most of the shape's that the camera saw through.
 const LEAST_EXPLAINED: f64 = 0.55;
 const MOST_SEEN_THROUGH: f64 = 0.2;
+/// Most of the outline beyond which the surface goes on: where the end-effector is mounted.
+const MOST_GOES_ON: f64 = 0.2;
 /// Shapes, intrinsics and simplified meshes are not better than this, metres and radians.
 const FLOOR_M: f64 = 0.0003;
 const FLOOR_RAD: f64 = 0.001;
@@ -112,6 +124,9 @@ pub(super) fn refusal(
     }
     if support.seen_through > MOST_SEEN_THROUGH {
         return Some(Refusal::SeenThrough { share: support.seen_through });
+    }
+    if support.goes_on > MOST_GOES_ON {
+        return Some(Refusal::GoesOn { share: support.goes_on });
     }
     alternatives.first().map(|other| {
         let rotation = best.fit.camera_from_base.rotation();
