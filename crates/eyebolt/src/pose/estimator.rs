@@ -117,11 +117,12 @@ impl PoseEstimator {
                 found.push(PoseHypothesis { pose, source, probability });
             }
         }
-        if let Some(net) = self.keypoints.as_mut().filter(|_| self.method != PoseMethod::Rpt) {
-            if let Some(matched) = net.pose(&observed.view)? {
-                let pose = Transform::from_isometry(*matched.camera_from_end_effector.isometry());
-                found.push(PoseHypothesis { pose, source: Source::Keypoints, probability: 1.0 });
-            }
+        let keypoints = self.keypoints.as_mut().filter(|_| self.method != PoseMethod::Rpt);
+        if let Some(net) = keypoints
+            && let Some(matched) = net.pose(&observed.view)?
+        {
+            let pose = Transform::from_isometry(*matched.camera_from_end_effector.isometry());
+            found.push(PoseHypothesis { pose, source: Source::Keypoints, probability: 1.0 });
         }
         if self.method == PoseMethod::Fused {
             let turned = found.iter().flat_map(|of| half_turns(&self.shape, of));

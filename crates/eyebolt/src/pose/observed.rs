@@ -20,8 +20,6 @@ pub struct Observed {
     pub camera: PinholeCamera,
     /// Of each pixel of that part, what it is of.
     pub label: Vec<u8>,
-    /// Whether it touches the border of the frame.
-    pub is_cut: bool,
 }
 
 /// Points that a pose is fitted to at most.
@@ -54,10 +52,6 @@ impl Observed {
         let (image, _) = part_around(depth, camera, middle.into(), half_m)?;
         let step = all.len().div_ceil(MOST_POINTS);
         let points = all.into_iter().step_by(step).collect();
-        let on_border = |at: &usize| {
-            let (u, v) = (at % width, at / width);
-            u == 0 || v == 0 || u + 1 == width || v + 1 == camera.height() as usize
-        };
         Some(Self {
             points,
             pixels: pixels.len(),
@@ -65,7 +59,6 @@ impl Observed {
             label: labels(&image, depth, label),
             camera: camera_of(&image, camera)?,
             image,
-            is_cut: pixels.iter().any(|at| on_border(at)),
         })
     }
 
@@ -113,7 +106,7 @@ fn camera_of(image: &Thinned, camera: &PinholeCamera) -> Option<PinholeCamera> {
         camera.fy() / step,
         middle(camera.cx(), image.corner[0]),
         middle(camera.cy(), image.corner[1]),
-        camera.distortion().clone(),
+        *camera.distortion(),
     )
     .ok()
 }
