@@ -6,6 +6,7 @@ mod end_effector_net;
 mod error;
 mod features;
 mod grid;
+mod middle;
 mod open;
 mod segmenter;
 mod thinned;
@@ -17,6 +18,7 @@ pub use end_effector_net::{EndEffectorNet, window_batch};
 pub use error::SegmentError;
 pub use features::{FEATURES, features};
 pub use grid::Grid;
+pub use middle::middle;
 pub use segmenter::{Segmentation, Segmenter};
 pub use thinned::Thinned;
 pub use window::{

@@ -3,6 +3,7 @@
 use super::judge::Judge;
 use super::observed::Observed;
 use super::shape::EndEffectorShape;
+use crate::segment::middle;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::Posture;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -69,16 +70,8 @@ fn middle_drawn(
         let [x, y] = rays[at];
         Some([x * z, y * z, z])
     };
-    let points: Vec<[f32; 3]> = raster.pixels().filter_map(point).collect();
-    if points.is_empty() {
-        return None;
-    }
-    let middle = |axis: usize| {
-        let mut values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
-        let at = values.len() / 2;
-        f64::from(*values.select_nth_unstable_by(at, f32::total_cmp).1)
-    };
-    Some(Vector3::from([0, 1, 2].map(middle)))
+    let middle = middle(raster.pixels().filter_map(point))?;
+    Some(Vector3::from(middle).cast())
 }
 
 /// `of` turned by half about each axis of the end-effector frame, through the middle of the shape.

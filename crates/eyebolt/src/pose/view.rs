@@ -1,5 +1,6 @@
 //! The points of an end-effector as a small image that a network takes.
 
+use crate::segment::middle;
 use eyebolt_geometry::{Camera, Link, Transform};
 use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 
@@ -39,7 +40,8 @@ impl EndEffectorView {
     /// Of points of the end-effector, camera frame, metres, whose largest extent is `extent_m`; `None`
     /// if there are too few.
     pub fn new(points_in_camera: &[[f32; 3]], extent_m: f64) -> Option<Self> {
-        let middle = Point3::from(median(points_in_camera)?);
+        let middle = middle(points_in_camera.iter().copied()).filter(|middle| middle[2] > 0.0)?;
+        let middle = Point3::from(middle).cast::<f64>();
         let sight = Rotation3::rotation_between(&Vector3::z(), &middle.coords)?;
         let camera_from_view =
             Transform::from_parts(middle.coords, UnitQuaternion::from_rotation_matrix(&sight));
@@ -74,20 +76,6 @@ impl EndEffectorView {
         let points_m = seen.iter().map(|at| image[*at]).collect();
         Some(Self { cells, points_m, features, camera_from_view, half_m })
     }
-}
-
-/// Of each coordinate by itself: wrongly labelled points far away do not move it.
-fn median(points: &[[f32; 3]]) -> Option<[f64; 3]> {
-    if points.is_empty() {
-        return None;
-    }
-    let middle = |axis: usize| {
-        let mut values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
-        let at = values.len() / 2;
-        f64::from(*values.select_nth_unstable_by(at, f32::total_cmp).1)
-    };
-    let found = [0, 1, 2].map(middle);
-    (found[2] > 0.0).then_some(found)
 }
 
 /// Unit normal toward the camera from the cells around; zero where there are none. Beyond a step in depth

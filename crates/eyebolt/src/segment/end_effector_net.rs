@@ -2,6 +2,7 @@
 
 use super::classes::{ARM, CLASSES, END_EFFECTOR};
 use super::error::SegmentError;
+use super::middle::middle;
 use super::thinned::Thinned;
 use super::upsample::upsample;
 use super::window::{Part, WINDOW_FEATURES, Window, part_around};
@@ -99,7 +100,7 @@ impl EndEffectorNet {
             let cube = point.map(|value| (value / self.half_m).floor() as i32);
             cubes.entry(cube).or_default().push(point);
         }
-        cubes.into_values().filter_map(|points| middle(points.into_iter())).collect()
+        cubes.into_values().filter_map(middle).collect()
     }
 
     fn look(
@@ -141,18 +142,4 @@ pub fn window_batch(graph: &Graph, windows: &[&Window]) -> Result<Batch, eyebolt
     let rows = windows.iter().map(|window| window.cells.len()).sum();
     let cells: Vec<&[[u32; 2]]> = windows.iter().map(|window| window.cells.as_slice()).collect();
     Batch::from_images(graph, &cells, &Matrix::new(rows, WINDOW_FEATURES.len(), values)?)
-}
-
-/// Median of each coordinate by itself.
-fn middle(points: impl Iterator<Item = [f32; 3]>) -> Option<[f32; 3]> {
-    let points: Vec<[f32; 3]> = points.collect();
-    if points.is_empty() {
-        return None;
-    }
-    let of = |axis: usize| {
-        let mut values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
-        let at = values.len() / 2;
-        *values.select_nth_unstable_by(at, f32::total_cmp).1
-    };
-    Some([0, 1, 2].map(of))
 }

@@ -174,9 +174,7 @@ impl Lesson for EndEffectorLesson {
         for window in self.held_out()? {
             let (batch, labels) = self.batch_of(std::slice::from_ref(window))?;
             let outputs = executor.infer(&self.graph, parameters, &batch)?;
-            let narrow = |labels: Vec<u32>| labels.into_iter().map(|label| label as u8).collect();
-            let found: Vec<u8> = narrow(outputs[0].argmax());
-            confusion.add(&narrow(labels), &found);
+            confusion.add_rows(&labels, &outputs[0]);
         }
         let classes = CLASSES.map(str::to_owned);
         let value = confusion.class(usize::from(END_EFFECTOR)).iou;

@@ -1,6 +1,7 @@
 //! How good labels are.
 
 use crate::segment::UNKNOWN;
+use eyebolt_net::Matrix;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -38,6 +39,12 @@ impl Confusion {
                 self.counts[truth * self.classes + found] += 1;
             }
         }
+    }
+
+    /// Counts the rows of a network's outputs by their largest logit.
+    pub fn add_rows(&mut self, truth: &[u32], logits: &Matrix) {
+        let narrow = |labels: &[u32]| labels.iter().map(|label| *label as u8).collect::<Vec<_>>();
+        self.add(&narrow(truth), &narrow(&logits.argmax()));
     }
 
     /// Of one class; 1 where there is nothing to find and nothing was found.

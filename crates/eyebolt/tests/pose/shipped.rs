@@ -2,7 +2,9 @@
 
 use crate::scene::{SHAPE, frames};
 use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod};
-use eyebolt::segment::Segmenter;
+use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter};
+use eyebolt_geometry::RayTable;
+use eyebolt_net::models::Model;
 use nalgebra::Isometry3;
 use std::path::{Path, PathBuf};
 
@@ -48,6 +50,27 @@ fn what_is_answered_is_right() {
         }
         assert!(unanswered <= most_unanswered, "{unanswered} of 18, by network: {by_network}");
     }
+}
+
+/// A hand is found along its arm by a segmentation that does not know of hands.
+#[test]
+fn a_hand_is_found_along_its_arm() {
+    let read = |name: &str| std::fs::read(model().join("end_effector").join(name)).unwrap();
+    let text = String::from_utf8(read("model.toml")).unwrap();
+    let model = Model::load(&text, &read("weights.safetensors")).unwrap();
+    let mut net = EndEffectorNet::new(model).unwrap();
+    let mut found = 0;
+    for truth in PRESETS.into_iter().flat_map(frames) {
+        let without = |label: &u8| if *label == END_EFFECTOR { ARM } else { *label };
+        let mut label: Vec<u8> = truth.label.iter().map(without).collect();
+        let rays = RayTable::new(&truth.camera);
+        net.refine(&truth.depth, &truth.camera, &rays, &mut label).unwrap();
+        let pairs = label.iter().zip(&truth.label);
+        let both = pairs.filter(|pair| *pair.0 == END_EFFECTOR && *pair.1 == END_EFFECTOR).count();
+        let count = |of: &[u8]| of.iter().filter(|label| **label == END_EFFECTOR).count();
+        found += usize::from(2 * both > count(&label).max(count(&truth.label)));
+    }
+    assert!(found >= 9, "{found} of 18");
 }
 
 /// The same frame gives the same pose, to the last bit, on one thread and on two.

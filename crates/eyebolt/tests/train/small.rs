@@ -93,10 +93,10 @@ impl Progress for Until {
 }
 
 /// A lesson that has the batches of two steps and no others, in turn.
-pub struct Repeated(pub SegmentationLesson);
+pub struct Repeated<L>(pub L);
 
-impl Lesson for Repeated {
-    type Target = Vec<u32>;
+impl<L: Lesson> Lesson for Repeated<L> {
+    type Target = L::Target;
 
     fn graph(&self) -> &Graph {
         self.0.graph()
@@ -106,11 +106,15 @@ impl Lesson for Repeated {
         self.0.description()
     }
 
-    fn batch(&self, step: u64) -> Result<(Batch, Vec<u32>), TrainError> {
+    fn batch(&self, step: u64) -> Result<(Batch, L::Target), TrainError> {
         self.0.batch(step % 2)
     }
 
-    fn loss(&self, outputs: &[Matrix], target: &Vec<u32>) -> Result<Vec<Loss>, eyebolt_net::Error> {
+    fn loss(
+        &self,
+        outputs: &[Matrix],
+        target: &L::Target,
+    ) -> Result<Vec<Loss>, eyebolt_net::Error> {
         self.0.loss(outputs, target)
     }
 
