@@ -65,5 +65,5 @@ fn models_of_something_else_are_refused() {
         eyebolt(&["pose", text(&SIMULATED), "--model", text(model)]).assert_error(1, words);
     };
     refused(&models("any-arm"), &["any-arm", "end-effector", "eyebolt train"]);
-    refused(Path::new("nowhere"), &["nowhere", "--model"]);
+    refused(Path::new("nowhere"), &["nowhere", "eyebolt train"]);
 }

@@ -7,7 +7,13 @@ use std::fs;
 
 fn info(more: &[&str]) -> Value {
     let ended = eyebolt(&[&["info", text(&RECORDING), "--json"], more].concat());
-    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+    // Another robot than the recorded one may not be ready to be calibrated: the robot is what is asked here.
+    assert!(
+        matches!(ended.code, Some(0 | 3)) && ended.err.is_empty(),
+        "{:?} {}",
+        ended.code,
+        ended.err
+    );
     serde_json::from_str(&ended.out).unwrap()
 }
 

@@ -42,7 +42,7 @@ pub enum PoseError {
     Net(#[from] PoseNetError),
     /// A network is missing.
     #[error(
-        "the model has no network for {}; make it with eyebolt train {}, or choose another --method",
+        "the model has no network for {}; make it with eyebolt train {}, or choose another method",
         method.name(),
         match method { PoseMethod::Kpm => "keypoints", _ => "rotation" }
     )]

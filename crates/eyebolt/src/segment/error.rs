@@ -20,7 +20,7 @@ pub enum SegmentError {
     },
     /// A file of the model cannot be read.
     #[error(
-        "{}: cannot read it. Name the folder of a model with --model, or make one with eyebolt train",
+        "{}: cannot read it. Name the folder of a model, or make one with eyebolt train",
         path.display()
     )]
     Read {
