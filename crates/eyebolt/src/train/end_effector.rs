@@ -21,7 +21,7 @@ use std::sync::OnceLock;
 pub struct EndEffectorLesson {
     /// Images of the arm.
     pub source: Images,
-    /// Images of a step, with [`WINDOWS`] windows in each.
+    /// Images of a step, with two windows in each.
     pub images: u64,
     /// Of all random choices.
     pub seed: u64,
