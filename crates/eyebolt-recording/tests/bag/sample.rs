@@ -202,3 +202,17 @@ pub fn assert_says<T>(result: Result<T, RecordingError>, parts: &[&str]) {
         assert!(text.contains(part), "no {part:?} in: {text}");
     }
 }
+
+/// Frames and positions of shoulder and elbow are those of the sample, these to `within` radians.
+#[track_caller]
+pub fn assert_arm_as_in_sample(bag: &Bag, within: f64) {
+    let (bag, sample) = (bag.open(), Bag::sample().open());
+    assert_eq!(bag.frame_names(), sample.frame_names());
+    for index in 0..bag.frame_names().len() {
+        let (found, known) = (bag.read_joints(index).unwrap(), sample.read_joints(index).unwrap());
+        for joint in ["shoulder", "elbow"] {
+            let apart = (found.get(joint).unwrap() - known.get(joint).unwrap()).abs();
+            assert!(apart < within, "{joint} is {apart} off in frame {index}");
+        }
+    }
+}

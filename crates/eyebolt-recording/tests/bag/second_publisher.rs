@@ -1,6 +1,6 @@
 //! Programs that tell where joints would be, beside the driver that tells where they are.
 
-use super::sample::{Bag, INFO_TOPIC, MS, START_NS};
+use super::sample::{Bag, INFO_TOPIC, MS, START_NS, assert_arm_as_in_sample};
 use eyebolt_recording::FrameSource;
 
 const TOPIC: &str = "/joint_states";
@@ -14,25 +14,12 @@ fn beside(every: i64, other: &[(&str, f64)]) -> Bag {
     bag
 }
 
-#[track_caller]
-fn assert_arm_as_in_sample(bag: &Bag) {
-    let (bag, sample) = (bag.open(), Bag::sample().open());
-    assert_eq!(bag.frame_names(), sample.frame_names());
-    for index in 0..bag.frame_names().len() {
-        let (found, known) = (bag.read_joints(index).unwrap(), sample.read_joints(index).unwrap());
-        for joint in ["shoulder", "elbow"] {
-            let apart = (found.get(joint).unwrap() - known.get(joint).unwrap()).abs();
-            assert!(apart < 1e-3, "{joint} is {apart} off in frame {index}");
-        }
-    }
-}
-
 #[test]
 fn zeros_between_are_another_publishers() {
     for every in [1, 3, 50] {
         // The arm rests at zero at first, as many do.
         let bag = beside(every, &[("shoulder", 0.0), ("elbow", 0.0)]);
-        assert_arm_as_in_sample(&bag);
+        assert_arm_as_in_sample(&bag, 1e-3);
         let problems = bag.open().problems(TOPIC);
         assert!(
             problems[0].starts_with("a second publisher tells the same joints"),
@@ -44,7 +31,7 @@ fn zeros_between_are_another_publishers() {
 #[test]
 fn so_are_the_middles_of_the_limits() {
     let bag = beside(10, &[("shoulder", 0.0), ("elbow", -1.57)]);
-    assert_arm_as_in_sample(&bag);
+    assert_arm_as_in_sample(&bag, 1e-3);
 }
 
 #[test]
@@ -55,7 +42,7 @@ fn who_tells_more_joints_and_none_that_moves_is_not_believed() {
         let zeros = [("elbow", 0.0), ("finger", 0.0), ("shoulder", 0.0)];
         bag.joints(START_NS + MS * i, &zeros);
     }
-    assert_arm_as_in_sample(&bag);
+    assert_arm_as_in_sample(&bag, 1e-3);
     assert_eq!(bag.open().read_joints(0).unwrap().get("finger"), Some(0.0));
 }
 

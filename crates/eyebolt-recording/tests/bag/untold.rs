@@ -1,6 +1,8 @@
 //! Joint states that do not tell all that they name: only what is not told is lost.
 
-use super::sample::{Bag, INFO_TOPIC, JOINT_STATE, MS, START_NS, position};
+use super::sample::{
+    Bag, INFO_TOPIC, JOINT_STATE, MS, START_NS, assert_arm_as_in_sample, position,
+};
 use super::writer::{Cdr, joint_state};
 use eyebolt_recording::{BagOptions, Folder, FrameSource, Recording, WriteRobot, write_folder};
 
@@ -17,27 +19,13 @@ fn with_lift(tell: impl Fn(i64) -> Vec<(&'static str, f64)>) -> Bag {
     bag
 }
 
-/// Frames and positions of shoulder and elbow are those of the sample.
-#[track_caller]
-fn assert_arm_as_in_sample(bag: &Bag) {
-    let (bag, sample) = (bag.open(), Bag::sample().open());
-    assert_eq!(bag.frame_names(), sample.frame_names());
-    for index in 0..bag.frame_names().len() {
-        let (found, known) = (bag.read_joints(index).unwrap(), sample.read_joints(index).unwrap());
-        for joint in ["shoulder", "elbow"] {
-            let apart = (found.get(joint).unwrap() - known.get(joint).unwrap()).abs();
-            assert!(apart < 1e-9, "{joint} in frame {index}");
-        }
-    }
-}
-
 #[test]
 fn what_is_no_position_of_one_joint_costs_the_others_nothing() {
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         // Always, sometimes, and once.
         for every in [1, 7, 600] {
             let bag = with_lift(|i| vec![("lift", if i % every == 0 { bad } else { 0.3 })]);
-            assert_arm_as_in_sample(&bag);
+            assert_arm_as_in_sample(&bag, 1e-9);
             let bag = bag.open();
             let count = (600 + every - 1) / every;
             let often = if every == 1 { "all".to_owned() } else { format!("{count} of") };
@@ -54,7 +42,7 @@ fn what_is_no_position_of_one_joint_costs_the_others_nothing() {
 #[test]
 fn a_joint_that_is_not_told_for_a_while_is_not_there_meanwhile() {
     let bag = with_lift(|i| vec![("lift", if (100..400).contains(&i) { f64::NAN } else { 0.3 })]);
-    assert_arm_as_in_sample(&bag);
+    assert_arm_as_in_sample(&bag, 1e-9);
     let bag = bag.open();
     for index in 0..bag.frame_names().len() {
         let at_ms = (bag.stamp_ns(index).unwrap() - START_NS) / MS;
@@ -65,12 +53,12 @@ fn a_joint_that_is_not_told_for_a_while_is_not_there_meanwhile() {
 
 #[test]
 fn a_name_that_stands_there_twice_costs_the_others_nothing() {
-    assert_arm_as_in_sample(&with_lift(|_| vec![("lift", 0.3), ("lift", 0.3)]));
+    assert_arm_as_in_sample(&with_lift(|_| vec![("lift", 0.3), ("lift", 0.3)]), 1e-9);
     let once = with_lift(|_| vec![("lift", 0.3), ("lift", 0.3)]).open();
     assert_eq!(once.read_joints(0).unwrap().get("lift"), Some(0.3));
     assert_eq!(once.problems(TOPIC), Vec::<String>::new());
     let twice = with_lift(|_| vec![("lift", 0.3), ("lift", 0.4)]);
-    assert_arm_as_in_sample(&twice);
+    assert_arm_as_in_sample(&twice, 1e-9);
     let twice = twice.open();
     assert_eq!(twice.read_joints(0).unwrap().get("lift"), None);
     let said = "lift stands there twice, at different positions, in all 600 messages";
@@ -87,7 +75,7 @@ fn a_short_list_of_positions_is_that_of_the_first_names() {
         let data = names.count(2).f64s(&[at, -at]).count(0).count(0).done();
         bag.add(TOPIC, JOINT_STATE, stamp, data);
     }
-    assert_arm_as_in_sample(&bag);
+    assert_arm_as_in_sample(&bag, 1e-9);
     let said = "the list of positions ends before lift in all 600 messages";
     assert!(bag.open().problems(TOPIC)[0].starts_with(said));
 }

@@ -85,7 +85,7 @@ impl PoseEstimator {
         label: &[u8],
         joints: Option<&JointPositions>,
     ) -> Result<Option<PoseAnswer>, PoseError> {
-        let extent_m = self.shape.end_effector.extent_m();
+        let extent_m = self.shape.extent_m();
         let Some(observed) = Observed::new(depth, camera, label, extent_m) else {
             return Ok(None);
         };
@@ -109,8 +109,11 @@ impl PoseEstimator {
     ) -> Result<Vec<PoseHypothesis>, PoseError> {
         let mut found = Vec::new();
         let mut judge = Judge::new(&self.shape, observed);
+        // By themselves, networks are taken at their first word.
+        let fused = self.method == PoseMethod::Fused;
+        let modes = if fused { usize::MAX } else { 1 };
         if let Some(net) = self.rotation.as_mut().filter(|_| self.method != PoseMethod::Kpm) {
-            for mode in net.rotations(&observed.view)? {
+            for mode in net.rotations(&observed.view)?.into_iter().take(modes) {
                 let rotation = mode.camera_from_end_effector;
                 let pose = with_translation(&mut judge, &self.shape, posture, observed, rotation);
                 let (source, probability) = (Source::Rotation, mode.probability);
@@ -124,12 +127,10 @@ impl PoseEstimator {
             let pose = Transform::from_isometry(*matched.camera_from_end_effector.isometry());
             found.push(PoseHypothesis { pose, source: Source::Keypoints, probability: 1.0 });
         }
-        if self.method == PoseMethod::Fused {
+        if fused {
             let turned = found.iter().flat_map(|of| half_turns(&self.shape, of));
             let turned: Vec<PoseHypothesis> = turned.collect();
             found.extend(turned);
-        } else {
-            found.truncate(1);
         }
         Ok(found)
     }

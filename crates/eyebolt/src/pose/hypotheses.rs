@@ -45,7 +45,7 @@ pub fn with_translation(
     rotation: UnitQuaternion<f64>,
 ) -> Transform<Camera, Base> {
     const ROUNDS: usize = 3;
-    let centre = shape.end_effector.mesh_box(&Default::default()).centre();
+    let centre = shape.centre();
     let target = observed.middle().coords;
     let mut translation = target - rotation * centre.coords;
     for _ in 0..ROUNDS {
@@ -76,7 +76,7 @@ fn middle_drawn(
 
 /// `of` turned by half about each axis of the end-effector frame, through the middle of the shape.
 pub fn half_turns(shape: &EndEffectorShape, of: &PoseHypothesis) -> Vec<PoseHypothesis> {
-    let centre = shape.end_effector.mesh_box(&Default::default()).centre();
+    let centre = shape.centre();
     let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
     let turned = axes.map(|axis| {
         let turn = about(&centre, UnitQuaternion::from_axis_angle(&axis, PI));

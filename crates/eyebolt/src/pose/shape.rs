@@ -1,11 +1,11 @@
 //! An end-effector as registration sees it.
 
-use crate::end_effector::{EndEffector, EndEffectorError};
+use crate::end_effector::{BoundingBox, EndEffector, EndEffectorError};
 use crate::record;
 use eyebolt_geometry::{Base, EndEffector as EndEffectorFrame, Transform};
 use eyebolt_registration::{ArmModel, LinkCache, Posture};
 use eyebolt_robot::{Arm, JointPositions};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 
 /// The links of an end-effector as distance fields and meshes. It is an arm by itself, whose base frame is the
 /// end-effector frame.
@@ -19,6 +19,8 @@ pub struct EndEffectorShape {
     links: Vec<usize>,
     /// Turns that cannot be seen, the identity first.
     twins: Vec<Isometry3<f64>>,
+    /// The box about its meshes, which takes a pass over all vertices.
+    mesh_box: BoundingBox,
 }
 
 impl EndEffectorShape {
@@ -32,7 +34,18 @@ impl EndEffectorShape {
         let (links, model) = record::shapes(arm, arm.end_effector_links(), cache)?;
         let turns = end_effector.symmetry().turns();
         let twins = std::iter::once(Isometry3::identity()).chain(turns).collect();
-        Ok(Self { end_effector, model, links, twins })
+        let mesh_box = end_effector.mesh_box(&JointPositions::default());
+        Ok(Self { end_effector, model, links, twins, mesh_box })
+    }
+
+    /// Its largest extent, metres: [`EndEffector::extent_m`].
+    pub fn extent_m(&self) -> f64 {
+        self.mesh_box.size_m().norm()
+    }
+
+    /// Middle of the box about its meshes, its fingers where they are without joint positions.
+    pub fn centre(&self) -> Point3<f64> {
+        self.mesh_box.centre()
     }
 
     /// Where its links are when its fingers are at `joints`; those that are not there, as without joint states.
@@ -64,7 +77,7 @@ impl EndEffectorShape {
             let off = (b * twin).inverse() * a;
             (off.translation.vector.norm(), off.rotation.angle())
         };
-        let extent_m = self.end_effector.extent_m();
+        let extent_m = self.extent_m();
         let size = |(metres, radians): &(f64, f64)| metres + extent_m * radians;
         let nearest = self.twins.iter().map(by).min_by(|a, b| size(a).total_cmp(&size(b)));
         nearest.unwrap_or((0.0, 0.0))

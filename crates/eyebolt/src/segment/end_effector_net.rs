@@ -32,8 +32,8 @@ struct Found {
     middle: [f32; 3],
 }
 
-/// The window is laid anew if its middle was off by this share of its half.
-const OFF: f32 = 0.15;
+/// A window that is laid anew, around the middle of what was found, may show less of it by this share.
+const LESS: f64 = 0.15;
 
 impl EndEffectorNet {
     /// Of a model.
@@ -79,7 +79,7 @@ impl EndEffectorNet {
         label.iter_mut().filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);
         let Some(mut best) = best else { return Ok(()) };
         if let Some(again) = self.look(depth, camera, best.middle)? {
-            best = if again.area >= (1.0 - f64::from(OFF)) * best.area { again } else { best };
+            best = if again.area >= (1.0 - LESS) * best.area { again } else { best };
         }
         let Found { image, part, window, logits, middle, .. } = &best;
         let range = middle[2] - self.half_m..middle[2] + self.half_m;

@@ -117,25 +117,23 @@ impl Actor {
     /// Middle of the box around the end-effector link's own shape, in its frame, metres; the origin if it
     /// has none.
     pub fn end_effector_middle(&self) -> Point3<f64> {
-        let bounds = self.end_effector_bounds();
-        bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
-    }
-
-    /// Middle of the box around one of its shapes, in the frame of its link, metres.
-    pub fn middle(&self, shape: usize) -> Point3<f64> {
-        let bounds = self.meshes[shape].bounds();
-        bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
+        self.end_effector_shape().map_or(Point3::origin(), |shape| self.middle(shape))
     }
 
     /// Diagonal of that box, metres, and at least a few centimetres.
     pub fn end_effector_extent_m(&self) -> f64 {
-        let bounds = self.end_effector_bounds();
+        let bounds = self.end_effector_shape().and_then(|shape| self.meshes[shape].bounds());
         bounds.map_or(0.05, |(low, high)| f64::from((high - low).norm()).max(0.05))
     }
 
-    fn end_effector_bounds(&self) -> Option<(Point3<f32>, Point3<f32>)> {
-        let own = self.links.iter().position(|link| *link == self.arm.end_effector());
-        self.meshes.get(own?)?.bounds()
+    fn end_effector_shape(&self) -> Option<usize> {
+        self.links.iter().position(|link| *link == self.arm.end_effector())
+    }
+
+    /// Middle of the box around one of its shapes, in the frame of its link, metres; the origin if it is empty.
+    pub fn middle(&self, shape: usize) -> Point3<f64> {
+        let bounds = self.meshes[shape].bounds();
+        bounds.map_or(Point3::origin(), |(low, high)| nalgebra::center(&low, &high).cast())
     }
 
     /// The lowest point of the arm but for the shapes that no joint moves, base frame, metres.
