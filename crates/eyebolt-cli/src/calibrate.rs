@@ -1,5 +1,7 @@
 //! `eyebolt calibrate`.
 
+mod learned;
+
 use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
 use crate::names;
@@ -10,11 +12,12 @@ use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::{Deviation, Limits, Verdict};
 use eyebolt::observations::Configuration;
-use eyebolt::pipeline::{self, Failure, Outcome, Request};
+use eyebolt::pipeline::{Failure, Outcome, Request};
 use eyebolt::progress::Step;
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
 use eyebolt_recording::Recording;
+use learned::LearnedArguments;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
@@ -28,6 +31,8 @@ pub struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     robot: RobotArguments,
+    #[command(flatten)]
+    learned: LearnedArguments,
     /// Find the arm's pixels by what moved, even if the recording has masks
     #[arg(long)]
     no_masks: bool,
@@ -88,8 +93,12 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         seed: arguments.seed,
         ..Request::new(recording.source(), &arm)
     };
-    let outcome = pipeline::run(&request, &bar)
-        .map_err(|error| named(error, &arguments.recording.recording))?;
+    let outcome =
+        learned::calibrate(&arguments.learned, &arguments.recording.recording, &request, &bar);
+    let outcome = outcome.map_err(|error| match error.downcast() {
+        Ok(failure) => named(failure, &arguments.recording.recording),
+        Err(other) => other,
+    })?;
     Step::Report.begin(&bar)?;
     let pictures = draw(arguments, &recording, &outcome);
     let saved = match &arguments.save_overlay {

@@ -1,94 +1,73 @@
 //! `eyebolt evaluate`.
 
+mod calibration;
+mod models;
+
 use crate::ending::Ending;
-use crate::output;
+use crate::inputs::{CacheArguments, RobotArguments, use_threads};
 use anyhow::{Result, bail};
-use eyebolt::evaluate::{Evaluation, evaluate};
-use eyebolt::export::{ExportError, SavedCalibration};
-use eyebolt_recording::{Truth, read_truth};
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// Options of `eyebolt evaluate`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Recording that `eyebolt simulate` made, or its truth.json
-    session: PathBuf,
-    /// Calibration made from it
-    calibration: PathBuf,
-    /// One line of JSON
+    /// A recording that eyebolt simulate made (or its truth.json) and a calibration made from it; with --model,
+    /// recordings
+    #[arg(required = true, value_name = "RECORDING CALIBRATION | RECORDING")]
+    paths: Vec<PathBuf>,
+    /// Folder of a model: prints the tables of the paper for labels, poses and calibrations that its networks make of
+    /// the recordings. Given several times, also how each does on each recording
+    #[arg(long, value_name = "[NAME=]FOLDER")]
+    model: Vec<String>,
+    /// With --model: what to take for the truth of recordings that have none, one for each of them in their order
+    #[arg(long, value_name = "CALIBRATION", requires = "model")]
+    calibration: Vec<PathBuf>,
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// JSON instead of text
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Serialize)]
-struct Line {
-    /// `null` where the calibration found no pose.
-    translation_mm: Option<f64>,
-    rotation_deg: Option<f64>,
-    camera_position_mm: Option<f64>,
-    trusted: bool,
-    /// Against the poses that the camera had later, if it was bumped.
-    #[serde(skip_serializing_if = "<[Evaluation]>::is_empty")]
-    after_bump: Vec<Evaluation>,
+    /// With --model: write the figures to this file, a line each
+    #[arg(long, value_name = "FILE", requires = "model")]
+    csv: Option<PathBuf>,
+    /// With --model: write the tables as a page for a browser
+    #[arg(long, value_name = "HTML", requires = "model")]
+    report: Option<PathBuf>,
+    /// Replace existing files
+    #[arg(long)]
+    force: bool,
+    /// Threads to use; otherwise one for each core
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
-    let truth = read_truth(&arguments.session)?;
-    let calibration = SavedCalibration::read(&arguments.calibration)?;
-    check_base(arguments, &truth, &calibration)?;
-    let trusted = calibration.refused().is_none();
-    let evaluations = match calibration.base_from_camera(true) {
-        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
-        Err(ExportError::NoPose { .. }) => Vec::new(),
-        Err(error) => return Err(error.into()),
-    };
-    let first = evaluations.first();
-    if arguments.json {
-        let line = Line {
-            translation_mm: first.map(|first| first.translation_mm),
-            rotation_deg: first.map(|first| first.rotation_deg),
-            camera_position_mm: first.map(|first| first.camera_position_mm),
-            trusted,
-            after_bump: evaluations.iter().skip(1).copied().collect(),
-        };
-        output::deliver(format!("{}\n", serde_json::to_string(&line)?).as_bytes())?;
-    } else {
-        output::say(&text(&evaluations, trusted));
+    use_threads(arguments.threads)?;
+    if !arguments.model.is_empty() {
+        return models::run(&models::Wanted {
+            recordings: &arguments.paths,
+            models: &arguments.model,
+            calibrations: &arguments.calibration,
+            robot: &arguments.robot,
+            json: arguments.json,
+            csv: arguments.csv.as_deref(),
+            report: arguments.report.as_deref(),
+            force: arguments.force,
+            cache: &arguments.cache,
+        });
     }
-    Ok(Ending::Done)
-}
-
-/// Poses of different links are not to be compared.
-fn check_base(arguments: &Arguments, truth: &Truth, calibration: &SavedCalibration) -> Result<()> {
-    let base = calibration.base_frame.as_str();
-    if base != truth.base {
-        bail!(
-            "{}: frames.base: the calibration is of {base:?}, and the truth of {:?}. Calibrate with \
-             --base {}, or give the calibration of this recording",
-            arguments.calibration.display(),
-            truth.base,
-            truth.base
-        );
+    match arguments.paths.as_slice() {
+        [session, calibration] => calibration::run(session, calibration, arguments.json),
+        other => bail!(
+            "{} were given where a recording and its calibration belong. Name both, or a model with --model to \
+             evaluate on recordings",
+            match other.len() {
+                1 => "one path".to_owned(),
+                count => format!("{count} paths"),
+            }
+        ),
     }
-    Ok(())
-}
-
-fn text(evaluations: &[Evaluation], trusted: bool) -> String {
-    let row = |evaluation: &Evaluation| {
-        format!(
-            "{:.2} mm and {:.3} deg off in camera_from_base; the camera itself {:.2} mm",
-            evaluation.translation_mm, evaluation.rotation_deg, evaluation.camera_position_mm
-        )
-    };
-    let verdict = if trusted { "trusted" } else { "REFUSED" };
-    let Some((first, after)) = evaluations.split_first() else {
-        return format!("{verdict}: no pose was found, so there is none to evaluate");
-    };
-    let mut text = format!("{verdict}: {}", row(first));
-    for later in after {
-        text += &format!("\nagainst where the camera was bumped to: {}", row(later));
-    }
-    text
 }

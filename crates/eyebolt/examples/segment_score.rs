@@ -3,8 +3,8 @@
 //! Points count, not pixels: those with depth, but for those within 3 pixels of the mask's edge.
 #![allow(clippy::print_stdout)]
 
+use eyebolt::segment::Confusion;
 use eyebolt::segment::{BACKGROUND, Segmenter, UNKNOWN};
-use eyebolt::train::Confusion;
 use eyebolt_geometry::{DepthImage, Mask};
 use eyebolt_recording::{BagOptions, Range, Recording};
 use std::path::Path;

@@ -6,9 +6,9 @@
 #![allow(clippy::print_stdout, reason = "what an example is for")]
 
 use eyebolt::robots::BuiltIn;
+use eyebolt::segment::Confusion;
 use eyebolt::segment::{Segmenter, UNKNOWN};
 use eyebolt::simulate::{Faults, Lab, PRESETS, Scenario, Viewpoint, plan};
-use eyebolt::train::Confusion;
 use eyebolt_recording::{FrameSource, Range};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
@@ -71,7 +71,7 @@ fn main() -> Result<(), Failure> {
             }
         }
         let [rest, arm, hand] = [0, 1, 2].map(|class| confusion.class(class));
-        let shown = |score: eyebolt::train::ClassScore| {
+        let shown = |score: eyebolt::segment::ClassScore| {
             format!("{:.3} {:.3}", score.precision, score.recall)
         };
         let scene = if passers_by > 0 { "people" } else { "plain" };

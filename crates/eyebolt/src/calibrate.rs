@@ -14,8 +14,8 @@ mod verdict;
 
 pub use calibration::Calibration;
 pub use deviation::Deviation;
-pub(crate) use error::covariance_at;
 pub use error::{ErrorEstimate, ErrorPart, ErrorSource};
+pub(crate) use error::{covariance_at, expected_at};
 pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;

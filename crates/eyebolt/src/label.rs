@@ -6,15 +6,19 @@
 //! others to learn from, with keypoints.
 
 mod before_pose;
+mod class;
 mod frame;
 mod labeller;
+mod learned;
 mod masks;
 mod moving;
 mod posed;
 
 pub use before_pose::before_pose;
+pub(crate) use class::class_of;
 pub use frame::{Contradiction, FrameLabeller, LabelledFrame};
-pub use labeller::Labeller;
+pub use labeller::{Labeller, Labelling};
+pub use learned::Learned;
 pub use masks::GivenMasks;
 pub use moving::Motion;
 pub use posed::{PosedModel, arm_points, labels_at};

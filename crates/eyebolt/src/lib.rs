@@ -16,6 +16,7 @@ pub mod label;
 mod made_up;
 pub mod observations;
 mod other_unit;
+pub mod paper;
 pub mod pipeline;
 pub mod pose;
 pub mod progress;

@@ -9,6 +9,7 @@ use eyebolt_geometry::{
     Base, Camera, DepthImage, EndEffector, Mask, PinholeCamera, RayTable, Transform,
 };
 use eyebolt_registration::{ArmModel, Posture, View};
+use nalgebra::{Point3, Vector3};
 
 /// Arm configurations, the camera that saw them and the arm.
 #[derive(Clone, Debug)]
@@ -104,6 +105,12 @@ impl Observations {
         self.configurations.iter().map(|c| self.view(c)).collect()
     }
 
+    /// Middle of where the end-effector was over all configurations.
+    pub fn workspace(&self) -> Point3<f64> {
+        let tips = self.configurations.iter().map(|c| c.base_from_end_effector.translation_m());
+        Point3::from(tips.sum::<Vector3<f64>>() / self.configurations.len().max(1) as f64)
+    }
+
     /// One configuration as registration sees it.
     pub fn view<'a>(&'a self, configuration: &'a Configuration) -> View<'a> {
         View {
@@ -113,12 +120,6 @@ impl Observations {
             mask: configuration.mask.as_ref(),
             posture: &configuration.posture,
         }
-    }
-
-    /// Whether the whole arm can be told from the rest before its pose is known, and not only what
-    /// of it moved.
-    pub fn shows_whole_arm(&self) -> bool {
-        self.has_masks() || self.background.depth().is_some()
     }
 
     /// Whether the recording says which pixels are the arm.

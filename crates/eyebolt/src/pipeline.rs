@@ -13,6 +13,7 @@ use crate::refine::refine_best;
 use eyebolt_recording::FrameSource;
 use eyebolt_registration::{LinkCache, Posture};
 use eyebolt_robot::{Arm, KinematicsError};
+use std::error::Error;
 
 /// What to calibrate, and how.
 #[derive(Clone, Debug)]
@@ -77,6 +78,12 @@ pub enum Failure {
         /// How many there are.
         wanted: usize,
     },
+    /// The labeller failed.
+    #[error("the arm's pixels cannot be told: {0}")]
+    Labeller(#[source] Box<dyn Error + Send + Sync>),
+    /// The proposer of poses failed.
+    #[error("no pose can be proposed: {0}")]
+    Proposer(#[source] Box<dyn Error + Send + Sync>),
     /// Whoever hears of the progress ended it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -148,18 +155,19 @@ fn once(request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome, Failu
 
     Step::Label.begin(progress)?;
     let labeller = request.labeller.unwrap_or_else(|| before_pose(&observations));
-    let labels = labeller.label(&observations);
-    let (found, wanted) = (labels.len(), observations.configurations.len());
+    let labelling = labeller.label(&observations).map_err(Failure::Labeller)?;
+    let (found, wanted) = (labelling.labels.len(), observations.configurations.len());
     if found != wanted {
         return Err(Failure::Labels { found, wanted });
     }
 
     Step::Pose.begin(progress)?;
     let search = GlobalSearch::new(request.seed);
-    let hypotheses = request.proposer.unwrap_or(&search).propose(&observations, &labels);
+    let proposer = request.proposer.unwrap_or(&search);
+    let hypotheses = proposer.propose(&observations, &labelling).map_err(Failure::Proposer)?;
 
     Step::Refine.begin(progress)?;
-    let found = refine_best(&observations, &labels, &hypotheses, progress)?;
+    let found = refine_best(&observations, &labelling.labels, &hypotheses, progress)?;
 
     Step::Calibrate.begin(progress)?;
     let calibration = calibrate(&observations, found, limits, *jackknife, progress)?;

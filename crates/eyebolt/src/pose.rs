@@ -1,5 +1,7 @@
 //! Where the base may be: hypotheses for `camera_from_base`; and what networks say of the end-effector.
 
+mod by_end_effector;
+mod consensus;
 mod contest;
 mod estimator;
 mod global_search;
@@ -17,6 +19,7 @@ mod shape;
 mod trust;
 mod view;
 
+pub use by_end_effector::ByEndEffector;
 pub use estimator::{PoseAnswer, PoseEstimator};
 pub use global_search::GlobalSearch;
 pub use hypotheses::{PoseHypothesis, Source, half_turns, with_translation};

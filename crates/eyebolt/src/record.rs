@@ -21,6 +21,6 @@ pub use observe::observe;
 pub(crate) use options::MOST_CONFIGURATIONS;
 pub use options::RecordOptions;
 pub(crate) use posture::posture;
-pub(crate) use reader::SingleFrames;
+pub(crate) use reader::{SingleFrame, SingleFrames};
 pub(crate) use shapes::{plausible_mesh, shapes};
 pub(crate) use spread::most_spread;

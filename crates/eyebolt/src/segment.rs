@@ -2,6 +2,7 @@
 
 mod classes;
 mod cluster;
+mod confusion;
 mod end_effector_net;
 mod error;
 mod features;
@@ -14,6 +15,7 @@ mod upsample;
 mod window;
 
 pub use classes::{ARM, BACKGROUND, CLASSES, END_EFFECTOR, UNKNOWN};
+pub use confusion::{ClassScore, Confusion};
 pub use end_effector_net::{EndEffectorNet, window_batch};
 pub use error::SegmentError;
 pub use features::{FEATURES, features};

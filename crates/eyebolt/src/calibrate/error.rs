@@ -146,6 +146,34 @@ pub(crate) fn estimate(
     }
 }
 
+/// The estimate for a pose of which one kind of evidence alone tells, with so much covariance of its own, at a point
+/// of the base frame; nothing else is known of it.
+pub(crate) fn expected_at(
+    pose: &Transform<Camera, Base>,
+    scatter: Matrix6<f64>,
+    workspace_in_base: &Point3<f64>,
+) -> ErrorEstimate {
+    let one_kind = Matrix6::from_diagonal(&ONE_KIND_SIGMA.map(|sigma| sigma * sigma));
+    let covariance = scatter + one_kind;
+    let part = |(source, covariance)| ErrorPart {
+        source,
+        expected: expected(&covariance, pose, workspace_in_base),
+    };
+    let camera_in_base = Point3::from(pose.inverse().translation_m());
+    ErrorEstimate {
+        expected: expected(&covariance, pose, workspace_in_base),
+        camera_position_m: expected(&covariance, pose, &camera_in_base).translation_m,
+        parts: [(ErrorSource::Scatter, scatter), (ErrorSource::OneKind, one_kind)]
+            .map(part)
+            .to_vec(),
+        covariance,
+        leave_one_out: None,
+        disagreement: None,
+        workspace_in_base: *workspace_in_base,
+        joint_sigma_rad: [f64::INFINITY; MOST_JOINTS],
+    }
+}
+
 /// By how much the variances of the noise model have to be enlarged for the answers of single kinds of
 /// evidence to agree with it (R. T. Birge, Physical Review 1932); infinite where that cannot be told.
 ///

@@ -1,6 +1,5 @@
 //! Whether to trust an answer.
 
-use super::deviation::Deviation;
 use super::error::ErrorEstimate;
 use super::limits::Limits;
 use super::reason::{Reason, Verdict};
@@ -69,7 +68,7 @@ pub(crate) fn judge(findings: &Findings<'_>, limits: &Limits) -> Verdict {
         if findings.rival {
             reasons.push(Reason::Ambiguous);
         }
-        reasons.extend(inaccurate(&findings.error.expected, limits));
+        reasons.extend(limits.exceeded_by(&findings.error.expected));
     }
     if reasons.is_empty() { Verdict::Trusted } else { Verdict::Refused(reasons) }
 }
@@ -132,16 +131,4 @@ fn contradicted(findings: &Findings<'_>) -> Option<Reason> {
     let share = all.contradicted_share();
     let (percent, limit) = (100.0 * share, 100.0 * CONTRADICTED_SHARE);
     (share > CONTRADICTED_SHARE).then_some(Reason::Contradicted { percent, limit })
-}
-
-fn inaccurate(expected: &Deviation, limits: &Limits) -> Option<Reason> {
-    let limit = limits.expected;
-    let accurate = expected.translation_m <= limit.translation_m
-        && expected.rotation_rad <= limit.rotation_rad;
-    (!accurate).then(|| Reason::Inaccurate {
-        translation_mm: 1e3 * expected.translation_m,
-        rotation_deg: expected.rotation_rad.to_degrees(),
-        limit_mm: 1e3 * limit.translation_m,
-        limit_deg: limit.rotation_rad.to_degrees(),
-    })
 }

@@ -1,12 +1,13 @@
 //! The arm as what moved between configurations, or was not there before.
 
-use super::labeller::Labeller;
+use super::labeller::{Labeller, Labelling};
 use crate::connected::connected;
 use crate::depth_noise::DepthNoise;
 use crate::evenly::evenly_others;
 use crate::observations::{Configuration, Observations};
 use eyebolt_registration::{Label, Labels, Margin};
 use rayon::prelude::*;
+use std::error::Error;
 
 /// Depth that changes by less than this from one pixel to the next is one surface, metres at 1 m.
 const CONTINUOUS_M: f32 = 0.015;
@@ -34,7 +35,10 @@ enum Shown {
 pub struct Motion;
 
 impl Labeller for Motion {
-    fn label(&self, observations: &Observations) -> Vec<Labels> {
+    fn label(
+        &self,
+        observations: &Observations,
+    ) -> Result<Labelling, Box<dyn Error + Send + Sync>> {
         let Observations { configurations, camera, .. } = observations;
         let farthest = Farthest::of(configurations, camera.pixel_count());
         let one = |(index, configuration): (usize, &Configuration)| {
@@ -45,7 +49,10 @@ impl Labeller for Motion {
                 if set[v * width + u] { Label::Arm } else { Label::Background }
             })
         };
-        configurations.par_iter().enumerate().map(one).collect()
+        let labels = configurations.par_iter().enumerate().map(one).collect();
+        // Frames without the arm show the parts of it that never move, too.
+        let whole_arm = observations.background.depth().is_some();
+        Ok(Labelling { labels, whole_arm })
     }
 }
 

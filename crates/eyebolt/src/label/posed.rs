@@ -1,12 +1,13 @@
 //! The arm as what lies near the posed model.
 
-use super::labeller::Labeller;
+use super::labeller::{Labeller, Labelling};
 use crate::observations::{Configuration, Observations};
 use eyebolt_geometry::{Base, Camera, RayTable, Transform};
 use eyebolt_registration::{ArmModel, Label, Labels, Margin, Start, View};
 use eyebolt_render::Raster;
 use nalgebra::Point3;
 use rayon::prelude::*;
+use std::error::Error;
 use std::ops::Range;
 
 /// Pixels around the drawn arm that are labelled too: as far as an outline is searched.
@@ -24,7 +25,10 @@ pub struct PosedModel {
 }
 
 impl Labeller for PosedModel {
-    fn label(&self, observations: &Observations) -> Vec<Labels> {
+    fn label(
+        &self,
+        observations: &Observations,
+    ) -> Result<Labelling, Box<dyn Error + Send + Sync>> {
         let one = |configuration: &Configuration| {
             let (arm, rays) = (&observations.arm, &observations.rays);
             let posture = configuration.posture.moved(arm, &self.at.joint_offsets);
@@ -37,7 +41,8 @@ impl Labeller for PosedModel {
             let labels = labels_at(arm, &view, rays, &mut Raster::new(view.camera), pose);
             with_end_effector(labels, arm, &view, rays, pose)
         };
-        observations.configurations.par_iter().map(one).collect()
+        let labels = observations.configurations.par_iter().map(one).collect();
+        Ok(Labelling { labels, whole_arm: true })
     }
 }
 

@@ -85,13 +85,31 @@ impl PoseEstimator {
         label: &[u8],
         joints: Option<&JointPositions>,
     ) -> Result<Option<PoseAnswer>, PoseError> {
+        let posture: Vec<Posture> =
+            joints.map(|joints| self.shape.posture(joints)).into_iter().collect();
+        self.estimate_at(depth, camera, label, &posture)
+    }
+
+    /// As [`Self::estimate`], with the links of the end-effector in one of `postures`; if there is none, at one of a
+    /// few openings.
+    ///
+    /// # Errors
+    ///
+    /// No memory.
+    pub(crate) fn estimate_at(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        label: &[u8],
+        postures: &[Posture],
+    ) -> Result<Option<PoseAnswer>, PoseError> {
         let extent_m = self.shape.extent_m();
         let Some(observed) = Observed::new(depth, camera, label, extent_m) else {
             return Ok(None);
         };
-        let openings = match joints {
-            Some(joints) => vec![self.shape.posture(joints)],
-            None => self.shape.openings(),
+        let openings = match postures {
+            [] => self.shape.openings(),
+            known => known.to_vec(),
         };
         let posture = &openings[0];
         let hypotheses = self.hypotheses(&observed, posture)?;
@@ -100,6 +118,19 @@ impl PoseEstimator {
             return Ok(hypotheses.first().map(|first| as_it_is(&contest, first)));
         }
         Ok(answer(&observed, &contest.ranked(hypotheses)))
+    }
+
+    /// What the networks of `method` alone say first of what was `observed`.
+    pub(crate) fn first_word(
+        &mut self,
+        observed: &Observed,
+        posture: &Posture,
+        method: PoseMethod,
+    ) -> Result<Option<PoseHypothesis>, PoseError> {
+        let own = std::mem::replace(&mut self.method, method);
+        let found = self.hypotheses(observed, posture);
+        self.method = own;
+        Ok(found?.first().copied())
     }
 
     fn hypotheses(

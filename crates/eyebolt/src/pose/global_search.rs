@@ -3,11 +3,13 @@
 use super::patches::middles;
 use super::proposer::{Hypothesis, PoseProposer};
 use crate::evenly::evenly;
+use crate::label::Labelling;
 use crate::observations::{Configuration, Observations};
 use eyebolt_geometry::Mask;
-use eyebolt_registration::{Labels, SearchView, SurfacePoint, search};
+use eyebolt_registration::{SearchView, SurfacePoint, search};
 use nalgebra::Point3;
 use rayon::prelude::*;
+use std::error::Error;
 
 /// The search looks at no more configurations than this; the rest would tell it little.
 const CONFIGURATIONS: usize = 8;
@@ -38,11 +40,14 @@ impl GlobalSearch {
 
 impl PoseProposer for GlobalSearch {
     /// Configurations with too few pixels of the arm to say anything take no part.
-    fn propose(&self, observations: &Observations, labels: &[Labels]) -> Vec<Hypothesis> {
+    fn propose(
+        &self,
+        observations: &Observations,
+        labelling: &Labelling,
+    ) -> Result<Vec<Hypothesis>, Box<dyn Error + Send + Sync>> {
         let (width, height) = (observations.camera.width(), observations.camera.height());
         let masks: Vec<Mask> =
-            labels.par_iter().map(|labels| labels.robot_mask(width, height)).collect();
-        let whole = observations.shows_whole_arm();
+            labelling.labels.par_iter().map(|labels| labels.robot_mask(width, height)).collect();
         let least = SEARCH_POINTS / 20;
         let count = observations.configurations.len();
         let usable: Vec<usize> =
@@ -54,7 +59,7 @@ impl PoseProposer for GlobalSearch {
                 let mask = mask.eroded(RIM_PX);
                 let arm_points = points(observations, configuration, &mask);
                 let middles = middles(observations, configuration, &mask);
-                let surface = surface(observations, configuration, whole);
+                let surface = surface(observations, configuration, labelling.whole_arm);
                 let view = observations.view(configuration);
                 let enough = arm_points.len() >= least && !surface.is_empty();
                 enough.then_some(SearchView { view, arm_points, middles, surface })
@@ -65,7 +70,7 @@ impl PoseProposer for GlobalSearch {
             camera_from_base: candidate.camera_from_base,
             score: candidate.score(),
         };
-        found.iter().map(hypothesis).collect()
+        Ok(found.iter().map(hypothesis).collect())
     }
 }
 

@@ -1,8 +1,9 @@
 //! The door for whatever proposes poses.
 
+use crate::label::Labelling;
 use crate::observations::Observations;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::Labels;
+use std::error::Error;
 use std::fmt::Debug;
 
 /// A pose that may be the answer.
@@ -17,6 +18,14 @@ pub struct Hypothesis {
 
 /// Proposes poses: a global search, a network.
 pub trait PoseProposer: Debug + Sync {
-    /// Hypotheses, best first; `labels` says which pixels of each configuration are the arm.
-    fn propose(&self, observations: &Observations, labels: &[Labels]) -> Vec<Hypothesis>;
+    /// Hypotheses, best first; `labelling` says which pixels of each configuration are the arm.
+    ///
+    /// # Errors
+    ///
+    /// Whatever keeps the proposer from its work; that nothing was found is none.
+    fn propose(
+        &self,
+        observations: &Observations,
+        labelling: &Labelling,
+    ) -> Result<Vec<Hypothesis>, Box<dyn Error + Send + Sync>>;
 }

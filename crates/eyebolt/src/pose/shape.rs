@@ -1,9 +1,10 @@
 //! An end-effector as registration sees it.
 
 use crate::end_effector::{BoundingBox, EndEffector, EndEffectorError};
+use crate::observations::Configuration;
 use crate::record;
-use eyebolt_geometry::{Base, EndEffector as EndEffectorFrame, Transform};
-use eyebolt_registration::{ArmModel, LinkCache, Posture};
+use eyebolt_geometry::{Base, EndEffector as EndEffectorFrame, Link, Transform};
+use eyebolt_registration::{ArmLink, ArmModel, LinkCache, Posture};
 use eyebolt_robot::{Arm, JointPositions};
 use nalgebra::{Isometry3, Point3};
 
@@ -55,6 +56,23 @@ impl EndEffectorShape {
             Transform::<Base, _>::from_isometry(*pose.isometry())
         };
         Posture::new(&self.model, poses.into_iter().map(as_base).collect())
+    }
+
+    /// Where its links are in a configuration of `arm`; `None` if one of them is not among the arm's.
+    pub(crate) fn posture_of(
+        &self,
+        arm: &ArmModel,
+        configuration: &Configuration,
+    ) -> Option<Posture> {
+        let end_effector_from_base = configuration.base_from_end_effector.inverse();
+        let pose = |of: &ArmLink| {
+            let index = arm.links().iter().position(|link| link.name == of.name)?;
+            let base_from_link = configuration.posture.base_from_link().get(index)?;
+            let pose = end_effector_from_base * *base_from_link;
+            Some(Transform::<Base, Link>::from_isometry(*pose.isometry()))
+        };
+        let poses = self.model.links().iter().map(pose).collect::<Option<Vec<_>>>()?;
+        Some(Posture::new(&self.model, poses))
     }
 
     /// Postures of a few openings of its fingers, half open first; one if nothing of it moves.

@@ -34,6 +34,18 @@ pub enum Dropped {
         .0.link, 100.0 * .0.share
     )]
     Misplaced(Misplaced),
+    /// Its frames say too little of the end-effector.
+    #[error("{0}")]
+    Insane(String),
+    /// Too few of its frames tell a pose of the end-effector.
+    #[error("only {poses} poses of the end-effector were found in its frames")]
+    FewPoses {
+        /// How many there were.
+        poses: usize,
+    },
+    /// It says otherwise than the rest.
+    #[error("it puts the base elsewhere than the other configurations")]
+    Outlier,
 }
 
 /// Share of configurations that may have a misplaced link before the joints themselves are in

@@ -12,10 +12,12 @@ mod scene;
 mod sections;
 mod spread;
 mod svg;
+mod tables;
 mod template;
 mod uncertainty;
 
 pub use advice::remedies;
+pub use tables::tables_page;
 
 use super::picture::Picture;
 use crate::answer::Answer;
@@ -67,20 +69,23 @@ pub fn html(answer: &Answer, outcome: &Outcome, context: &Context<'_>) -> String
     let truth = context.truth.map(|truth| {
         context! { translation_mm => truth.translation_mm, rotation_deg => truth.rotation_deg }
     });
-    template::render(context! {
-        answer => Value::from_serialize(answer),
-        recording => context.recording,
-        trusted => answer.reasons.is_empty(),
-        reasons => sections::reasons(&outcome.calibration.verdict, context.call_input),
-        notes => advice::notes(answer),
-        counts => sections::counts(answer),
-        transforms => sections::transforms(outcome),
-        command => sections::command(answer),
-        sources => Value::from_serialize(uncertainty::sources(outcome)),
-        truth => truth,
-        configurations => sections::configurations(answer, &leftovers),
-        plots => sections::plots(answer, outcome, &leftovers),
-        pictures => sections::pictures(answer, context.pictures),
-        scene => scene.map(|scene| Value::from_safe_string(scene.to_json())),
-    })
+    template::render(
+        "page.html",
+        context! {
+            answer => Value::from_serialize(answer),
+            recording => context.recording,
+            trusted => answer.reasons.is_empty(),
+            reasons => sections::reasons(&outcome.calibration.verdict, context.call_input),
+            notes => advice::notes(answer),
+            counts => sections::counts(answer),
+            transforms => sections::transforms(outcome),
+            command => sections::command(answer),
+            sources => Value::from_serialize(uncertainty::sources(outcome)),
+            truth => truth,
+            configurations => sections::configurations(answer, &leftovers),
+            plots => sections::plots(answer, outcome, &leftovers),
+            pictures => sections::pictures(answer, context.pictures),
+            scene => scene.map(|scene| Value::from_safe_string(scene.to_json())),
+        },
+    )
 }

@@ -58,7 +58,8 @@ impl EndEffectorNet {
 
     /// Labels of the pixels of `depth` about the end-effector, anew; that label is taken from all others.
     ///
-    /// It is looked for where `label` has it, else all along the arm.
+    /// It is looked for where `label` has it and all along the arm, and is where the network is surest of most of it:
+    /// of whole frames at 160 columns a wrist is easily taken for a hand.
     ///
     /// # Errors
     ///
@@ -87,20 +88,24 @@ impl EndEffectorNet {
         Ok(())
     }
 
-    /// Where the end-effector may be.
+    /// Where the end-effector may be: where it was found, and one place in each cube of the arm farther away.
     fn places(&self, depth: &DepthImage, rays: &RayTable, label: &[u8]) -> Vec<[f32; 3]> {
         let point = |at: usize| <[f32; 3]>::from(rays.point(at, depth.depth_m()[at]));
-        let seen = (0..label.len()).filter(|at| label[*at] == END_EFFECTOR).map(point);
-        if let Some(middle) = middle(seen) {
-            return vec![middle];
-        }
-        // One in each cube of the arm.
+        let of = |wanted: u8| (0..label.len()).filter(move |at| label[*at] == wanted).map(point);
+        let found = middle(of(END_EFFECTOR));
         let mut cubes: BTreeMap<[i32; 3], Vec<[f32; 3]>> = BTreeMap::new();
-        for point in (0..label.len()).filter(|at| label[*at] == ARM).map(point) {
+        for point in of(ARM) {
             let cube = point.map(|value| (value / self.half_m).floor() as i32);
             cubes.entry(cube).or_default().push(point);
         }
-        cubes.into_values().filter_map(middle).collect()
+        let farther = |place: &[f32; 3]| {
+            let off = |found: [f32; 3]| {
+                (0..3).map(|axis| (place[axis] - found[axis]).powi(2)).sum::<f32>()
+            };
+            found.is_none_or(|found| off(found) > self.half_m.powi(2))
+        };
+        let along = cubes.into_values().filter_map(middle).filter(farther);
+        found.into_iter().chain(along).collect()
     }
 
     fn look(

@@ -3,9 +3,9 @@
 use super::error::TrainError;
 use super::images::Images;
 use super::lesson::Lesson;
-use super::scores::Confusion;
 use super::segmentation::label_loss;
 use super::shot::{At, Framing, Shot};
+use crate::segment::Confusion;
 use crate::segment::{
     BACKGROUND, CLASSES, END_EFFECTOR, WINDOW_COLUMNS, WINDOW_FEATURES, Window, window_batch,
     window_half_m,

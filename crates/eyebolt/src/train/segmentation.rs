@@ -3,8 +3,8 @@
 use super::error::TrainError;
 use super::images::Images;
 use super::lesson::Lesson;
-use super::scores::Confusion;
 use super::shot::{Framing, Shot};
+use crate::segment::Confusion;
 use crate::segment::{ARM, CLASSES, END_EFFECTOR, FEATURES, Grid, Thinned, UNKNOWN};
 use eyebolt_net::losses::{Loss, cross_entropy, lovasz_softmax};
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};

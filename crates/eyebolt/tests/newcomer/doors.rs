@@ -3,7 +3,7 @@
 use crate::run::{MASKED, difference, truth};
 use crate::scene::{CAMERA, CAMERA_FROM_BASE, JOINT_NAMES, Shot, URDF, shots};
 use eyebolt::calibrate::Verdict;
-use eyebolt::label::{GivenMasks, Labeller, PosedModel};
+use eyebolt::label::{GivenMasks, Labeller, Labelling, PosedModel};
 use eyebolt::observations::Observations;
 use eyebolt::pipeline::{Failure, Request, run};
 use eyebolt::pose::{Hypothesis, PoseProposer};
@@ -14,6 +14,7 @@ use eyebolt_recording::{Frame, FrameSource, InMemory, Range, RecordingError};
 use eyebolt_registration::{Label, Labels, LinkCache};
 use eyebolt_robot::{Arm, JointPositions, PackageRoots, Robot};
 use std::cell::RefCell;
+use std::error::Error;
 
 fn arm() -> Arm {
     let robot = Robot::from_urdf_str(URDF, None, &PackageRoots::new()).unwrap();
@@ -42,10 +43,14 @@ fn source(shots: Vec<Shot>) -> InMemory {
 struct Tip;
 
 impl PoseProposer for Tip {
-    fn propose(&self, _: &Observations, labels: &[Labels]) -> Vec<Hypothesis> {
-        assert!(labels.iter().all(|labels| labels.count(Label::Arm) > 1000));
+    fn propose(
+        &self,
+        _: &Observations,
+        labelling: &Labelling,
+    ) -> Result<Vec<Hypothesis>, Box<dyn Error + Send + Sync>> {
+        assert!(labelling.labels.iter().all(|labels| labels.count(Label::Arm) > 1000));
         let off = nalgebra::Vector6::new(0.03, -0.02, 0.02, 0.03, 0.02, -0.03);
-        vec![Hypothesis { camera_from_base: CAMERA_FROM_BASE.retract(&off), score: 0.0 }]
+        Ok(vec![Hypothesis { camera_from_base: CAMERA_FROM_BASE.retract(&off), score: 0.0 }])
     }
 }
 
@@ -70,8 +75,12 @@ fn without_a_hypothesis_there_is_no_answer() {
     #[derive(Debug)]
     struct Clueless;
     impl PoseProposer for Clueless {
-        fn propose(&self, _: &Observations, _: &[Labels]) -> Vec<Hypothesis> {
-            Vec::new()
+        fn propose(
+            &self,
+            _: &Observations,
+            _: &Labelling,
+        ) -> Result<Vec<Hypothesis>, Box<dyn Error + Send + Sync>> {
+            Ok(Vec::new())
         }
     }
     let (source, arm) = (source(shots()), arm());
@@ -117,7 +126,7 @@ fn a_posed_model_tells_the_end_effector_from_the_arm() {
     let (source, arm) = (source(shots()), arm());
     let options = RecordOptions { use_masks: false, ..RecordOptions::default() };
     let observations = observe(&source, &arm, &LinkCache::disabled(), &options).unwrap();
-    let labels = PosedModel { at: truth().into() }.label(&observations);
+    let labels = PosedModel { at: truth().into() }.label(&observations).unwrap().labels;
     let (width, height) = (CAMERA.width(), CAMERA.height());
     for (labels, shot) in labels.iter().zip(shots()) {
         let found = labels.robot_mask(width, height);
@@ -137,8 +146,9 @@ fn a_posed_model_tells_the_end_effector_from_the_arm() {
 struct Lazy;
 
 impl Labeller for Lazy {
-    fn label(&self, _: &Observations) -> Vec<Labels> {
-        vec![Labels::from_fn(0..0, 0..0, |_, _| Label::Background)]
+    fn label(&self, _: &Observations) -> Result<Labelling, Box<dyn Error + Send + Sync>> {
+        let labels = vec![Labels::from_fn(0..0, 0..0, |_, _| Label::Background)];
+        Ok(Labelling { labels, whole_arm: true })
     }
 }
 

@@ -42,7 +42,7 @@ fn observed(room: Room) -> Observations {
 
 #[track_caller]
 fn assert_only_the_arm(observations: &Observations) {
-    for (configuration, labels) in Motion.label(observations).iter().enumerate() {
+    for (configuration, labels) in Motion.label(observations).unwrap().labels.iter().enumerate() {
         let (mut missed, mut others) = (0, 0);
         for (u, v) in (0..HEIGHT).flat_map(|v| (0..WIDTH).map(move |u| (u, v))) {
             match (is_arm(configuration, u, v), labels.at(u, v) == Some(Label::Arm)) {
@@ -86,7 +86,7 @@ fn a_wall_that_stood_farther_for_a_third_makes_no_arm_of_the_wall() {
 #[test]
 fn what_was_there_once_is_taken_for_the_arm() {
     let observations = observed(|at, u, v| if at == 2 { crated(u, v) } else { WALL_M });
-    let labels = Motion.label(&observations);
+    let labels = Motion.label(&observations).unwrap().labels;
     assert_eq!(labels[2].at(70, 95), Some(Label::Arm));
     assert_eq!(labels[1].at(70, 95), Some(Label::Background));
 }
@@ -98,7 +98,7 @@ fn with_frames_of_the_scene_alone_nothing_is_voted_on() {
     let wall = vec![WALL_M as f32; WIDTH * HEIGHT];
     let wall = DepthImage::new(WIDTH as u32, HEIGHT as u32, wall).unwrap();
     observations.background = Background::Seen(wall);
-    let labels = Motion.label(&observations);
+    let labels = Motion.label(&observations).unwrap().labels;
     assert_eq!(labels[0].at(70, 95), Some(Label::Arm));
     assert_eq!(labels[5].at(70, 95), Some(Label::Background));
 }

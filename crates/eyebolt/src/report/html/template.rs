@@ -4,7 +4,7 @@ use super::svg::signed;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
 
 /// Texts that stand in the page as they are, and those that are filled in.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
     ("page.html", include_str!("page.html")),
     ("verdict.html", include_str!("verdict.html")),
     ("transform.html", include_str!("transform.html")),
@@ -12,13 +12,14 @@ const FILES: [(&str, &str); 10] = [
     ("accuracy.html", include_str!("accuracy.html")),
     ("fit.html", include_str!("fit.html")),
     ("made.html", include_str!("made.html")),
+    ("tables.html", include_str!("tables.html")),
     ("style.css", include_str!("style.css")),
     ("page.js", include_str!("page.js")),
     ("view.js", include_str!("view.js")),
 ];
 
-/// The page that `context` makes.
-pub(super) fn render(context: Value) -> String {
+/// The page that `context` makes of the template called `name`.
+pub(super) fn render(name: &str, context: Value) -> String {
     let mut environment = Environment::new();
     // All of them, so that nothing depends on what a file is called.
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -36,6 +37,6 @@ pub(super) fn render(context: Value) -> String {
     for (name, text) in FILES {
         environment.add_template(name, text).expect("a template of ours is well formed");
     }
-    let page = environment.get_template("page.html").expect("it is one of them");
+    let page = environment.get_template(name).expect("it is one of them");
     page.render(context).expect("every page has what its templates name")
 }

@@ -1,6 +1,6 @@
 //! How good labels are.
 
-use crate::segment::UNKNOWN;
+use super::classes::UNKNOWN;
 use eyebolt_net::Matrix;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -22,6 +22,8 @@ pub struct ClassScore {
     pub recall: f64,
     /// Its points found, over all points that are of it or found to be.
     pub iou: f64,
+    /// Share of all points of which it is rightly said whether they are of it.
+    pub accuracy: f64,
 }
 
 impl Confusion {
@@ -58,7 +60,16 @@ impl Confusion {
             precision: share(found),
             recall: share(there),
             iou: share(found + there - hits),
+            accuracy: {
+                let all: u64 = self.counts.iter().sum();
+                if all > 0 { 1.0 - (found + there - 2.0 * hits) / all as f64 } else { 1.0 }
+            },
         }
+    }
+
+    /// Counts what `other` counted, of as many classes.
+    pub fn merge(&mut self, other: &Self) {
+        self.counts.iter_mut().zip(&other.counts).for_each(|(own, other)| *own += other);
     }
 
     /// Of everything but class 0 taken as one.
@@ -101,6 +112,7 @@ mod tests {
         confusion.add(&[0, 0, 1, 1, 1, 2, 2, UNKNOWN], &[0, 1, 1, 1, 2, 2, 0, 1]);
         let arm = confusion.class(1);
         assert_eq!((arm.precision, arm.recall, arm.iou), (2.0 / 3.0, 2.0 / 3.0, 0.5));
+        assert_eq!(arm.accuracy, 5.0 / 7.0);
         let any = confusion.foreground();
         assert_eq!((any.precision, any.recall, any.iou), (4.0 / 5.0, 4.0 / 5.0, 4.0 / 6.0));
         assert_eq!(Confusion::new(2).class(1).recall, 1.0);

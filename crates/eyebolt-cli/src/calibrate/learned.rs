@@ -1,0 +1,130 @@
+//! What networks have to do with a calibration.
+
+use anyhow::{Result, bail};
+use eyebolt::label::{Labeller, Learned};
+use eyebolt::paper::{self, FrameEstimator, FrameLabels, Paper};
+use eyebolt::pipeline::{self, Outcome, Request};
+use eyebolt::pose::{
+    ByEndEffector, EndEffectorShape, GlobalSearch, PoseEstimator, PoseMethod, PoseProposer,
+};
+use eyebolt::progress::Progress;
+use eyebolt::segment::Segmenter;
+use eyebolt_recording::read_truth;
+use eyebolt_registration::Start;
+use std::path::{Path, PathBuf};
+
+/// Options of networks.
+#[derive(Debug, clap::Args)]
+pub struct LearnedArguments {
+    /// Folder of a model that eyebolt train made, such as models/panda or models/any-arm: networks tell the arm's
+    /// pixels, whatever else moves, and where its end-effector is
+    #[arg(long, value_name = "FOLDER")]
+    pub model: Option<PathBuf>,
+    /// How to calibrate
+    #[arg(long, value_enum, default_value = "best")]
+    pub method: Method,
+    /// With --method paper: leave the poses as the networks have them
+    #[arg(long)]
+    pub no_icp: bool,
+    /// With --method paper: who tells the end-effector's pixels
+    #[arg(long, value_enum, default_value = "predicted")]
+    pub labels: LabelsFrom,
+}
+
+/// How to calibrate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Method {
+    /// With a model by what its networks tell, refined on all that is seen of the arm; else from nothing
+    Best,
+    /// From nothing, even with a model
+    Nothing,
+    /// As Sefercik and Akgun (CoRL 2022): the pose of the end-effector in each frame, without outliers, averaged
+    Paper,
+}
+
+/// Who tells which pixels are the end-effector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum LabelsFrom {
+    /// The networks
+    Predicted,
+    /// The truth of a recording that eyebolt simulate made
+    True,
+}
+
+/// The model that a method needs.
+fn model(arguments: &LearnedArguments) -> Result<&Path> {
+    match arguments.model.as_deref() {
+        Some(model) => Ok(model),
+        None => bail!("--method paper needs the networks of a model. Name its folder with --model"),
+    }
+}
+
+/// Calibrates as `arguments` ask for.
+pub fn calibrate(
+    arguments: &LearnedArguments,
+    recording: &Path,
+    request: &Request<'_>,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    match (arguments.method, &arguments.model) {
+        (Method::Paper, _) => by_paper(arguments, model(arguments)?, recording, request, progress),
+        (Method::Best, Some(folder)) => by_networks(folder, request, progress),
+        (Method::Best | Method::Nothing, _) => Ok(pipeline::run(request, progress)?),
+    }
+}
+
+fn by_networks(folder: &Path, request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome> {
+    let segmenter = Segmenter::open(folder)?;
+    let tells_end_effector = segmenter.tells_end_effector();
+    let labeller = Learned::new(segmenter);
+    let estimator = match tells_end_effector && tells_poses(folder) {
+        true => Some(estimator(folder, request)?),
+        false => None,
+    };
+    let proposer = estimator.map(|it| ByEndEffector::new(it, GlobalSearch::new(request.seed)));
+    let request = Request {
+        labeller: Some(&labeller as &dyn Labeller),
+        proposer: proposer.as_ref().map(|it| it as &dyn PoseProposer),
+        ..request.clone()
+    };
+    Ok(pipeline::run(&request, progress)?)
+}
+
+/// Whether a model has networks for poses: any-arm has none.
+fn tells_poses(folder: &Path) -> bool {
+    ["rotation", "keypoints"].iter().any(|net| folder.join(net).is_dir())
+}
+
+fn estimator(folder: &Path, request: &Request<'_>) -> Result<PoseEstimator> {
+    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
+    Ok(PoseEstimator::open(folder, shape, PoseMethod::Fused)?)
+}
+
+fn by_paper(
+    arguments: &LearnedArguments,
+    folder: &Path,
+    recording: &Path,
+    request: &Request<'_>,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    let labels = match arguments.labels {
+        LabelsFrom::Predicted => {
+            let segmenter = Segmenter::open(folder)?;
+            if !segmenter.tells_end_effector() {
+                bail!(
+                    "{}: the model tells the arm, but not its end-effector. Teach one for this robot with \
+                     eyebolt train",
+                    folder.display()
+                );
+            }
+            FrameLabels::Predicted(Box::new(segmenter))
+        }
+        LabelsFrom::True => FrameLabels::True(Start::from(read_truth(recording)?.camera_from_base)),
+    };
+    let estimator = FrameEstimator::new(estimator(folder, request)?, !arguments.no_icp);
+    let mut paper = Paper { labels, estimator };
+    Ok(match paper::calibrate(request, &mut paper, progress) {
+        Err(paper::PaperError::Failure(failure)) => return Err(failure.into()),
+        outcome => outcome?,
+    })
+}

@@ -1,0 +1,82 @@
+//! One calibration against the truth.
+
+use crate::ending::Ending;
+use crate::output;
+use anyhow::{Result, bail};
+use eyebolt::evaluate::{Evaluation, evaluate};
+use eyebolt::export::{ExportError, SavedCalibration};
+use eyebolt_recording::{Truth, read_truth};
+use serde::Serialize;
+use std::path::Path;
+
+#[derive(Serialize)]
+struct Line {
+    /// `null` where the calibration found no pose.
+    translation_mm: Option<f64>,
+    rotation_deg: Option<f64>,
+    camera_position_mm: Option<f64>,
+    trusted: bool,
+    /// Against the poses that the camera had later, if it was bumped.
+    #[serde(skip_serializing_if = "<[Evaluation]>::is_empty")]
+    after_bump: Vec<Evaluation>,
+}
+
+/// Holds the calibration at `path` against the truth of `session`: a recording of `eyebolt simulate`, or its truth.json.
+pub fn run(session: &Path, path: &Path, json: bool) -> Result<Ending> {
+    let truth = read_truth(session)?;
+    let calibration = SavedCalibration::read(path)?;
+    check_base(path, &truth, &calibration)?;
+    let trusted = calibration.refused().is_none();
+    let evaluations = match calibration.base_from_camera(true) {
+        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
+        Err(ExportError::NoPose { .. }) => Vec::new(),
+        Err(error) => return Err(error.into()),
+    };
+    let first = evaluations.first();
+    if json {
+        let line = Line {
+            translation_mm: first.map(|first| first.translation_mm),
+            rotation_deg: first.map(|first| first.rotation_deg),
+            camera_position_mm: first.map(|first| first.camera_position_mm),
+            trusted,
+            after_bump: evaluations.iter().skip(1).copied().collect(),
+        };
+        output::deliver(format!("{}\n", serde_json::to_string(&line)?).as_bytes())?;
+    } else {
+        output::say(&text(&evaluations, trusted));
+    }
+    Ok(Ending::Done)
+}
+
+/// Poses of different links are not to be compared.
+fn check_base(path: &Path, truth: &Truth, calibration: &SavedCalibration) -> Result<()> {
+    let base = calibration.base_frame.as_str();
+    if base != truth.base {
+        bail!(
+            "{}: frames.base: the calibration is of {base:?}, and the truth of {:?}. Calibrate with \
+             --base {}, or give the calibration of this recording",
+            path.display(),
+            truth.base,
+            truth.base
+        );
+    }
+    Ok(())
+}
+
+fn text(evaluations: &[Evaluation], trusted: bool) -> String {
+    let row = |evaluation: &Evaluation| {
+        format!(
+            "{:.2} mm and {:.3} deg off in camera_from_base; the camera itself {:.2} mm",
+            evaluation.translation_mm, evaluation.rotation_deg, evaluation.camera_position_mm
+        )
+    };
+    let verdict = if trusted { "trusted" } else { "REFUSED" };
+    let Some((first, after)) = evaluations.split_first() else {
+        return format!("{verdict}: no pose was found, so there is none to evaluate");
+    };
+    let mut text = format!("{verdict}: {}", row(first));
+    for later in after {
+        text += &format!("\nagainst where the camera was bumped to: {}", row(later));
+    }
+    text
+}
