@@ -16,6 +16,7 @@ mod output;
 mod pose;
 mod progress;
 mod record_command;
+mod reproduce;
 mod robots;
 mod segment;
 mod shell;
@@ -51,7 +52,7 @@ enum Command {
     /// report are left in a folder.
     Demo(demo::Arguments),
     /// Find the pose of the camera from a recording of the arm in a few configurations
-    Calibrate(calibrate::Arguments),
+    Calibrate(Box<calibrate::Arguments>),
     /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
     Info(info::Arguments),
     /// Write a recording.toml from what lies in a folder, for you to check
@@ -66,10 +67,15 @@ enum Command {
     /// The recording is an ordinary one, for `eyebolt calibrate` and everybody else. Where the camera
     /// really was is in a record of its own, which only `eyebolt evaluate` reads.
     Simulate(simulate::Arguments),
-    /// Say how far a calibration of a simulated recording is from the truth
+    /// Say how far a calibration of a simulated recording is from the truth, or how good a model is
     ///
-    /// Refused calibrations are evaluated too: whether they were refused is part of the answer.
-    Evaluate(evaluate::Arguments),
+    /// Refused calibrations are evaluated too: whether they were refused is part of the answer. With --model it
+    /// prints the tables of Sefercik and Akgun (CoRL 2022), with their figures beside.
+    Evaluate(Box<evaluate::Arguments>),
+    /// Make the tables of the paper from nothing: record, label, train, evaluate
+    ///
+    /// Each step is a command of this program and is printed; a run that was ended goes on with the same command.
+    Reproduce(reproduce::Arguments),
     /// Simulate many sessions, good and spoiled, calibrate each, and count right and wrong verdicts
     ///
     /// Half of the sessions are spoiled by one thing each. A trusted answer should be within 10 mm and
@@ -108,6 +114,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
         Command::Segment(arguments) => segment::run(&arguments),
