@@ -1,5 +1,7 @@
 //! `eyebolt calibrate`.
 
+mod marker;
+
 use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
 use crate::names;
@@ -61,6 +63,8 @@ pub struct Arguments {
     timing: bool,
     #[command(flatten)]
     cache: CacheArguments,
+    #[command(flatten)]
+    marker: marker::MarkerArguments,
 }
 
 /// Runs the command.
@@ -88,6 +92,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         seed: arguments.seed,
         ..Request::new(recording.source(), &arm)
     };
+    if let Some(target) = &arguments.marker.marker {
+        let path = &arguments.recording.recording;
+        return marker::run(&arguments.marker, target, &request, path, &destination, &bar);
+    }
     let outcome = pipeline::run(&request, &bar)
         .map_err(|error| named(error, &arguments.recording.recording))?;
     Step::Report.begin(&bar)?;

@@ -10,6 +10,7 @@ mod files;
 mod good;
 mod info;
 mod label;
+mod marker;
 mod messages;
 mod outcome;
 mod pose;
