@@ -1,6 +1,7 @@
 //! `eyebolt calibrate`.
 
 mod learned;
+mod marker;
 
 use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
@@ -66,6 +67,8 @@ pub struct Arguments {
     timing: bool,
     #[command(flatten)]
     cache: CacheArguments,
+    #[command(flatten)]
+    marker: marker::MarkerArguments,
 }
 
 /// Runs the command.
@@ -93,6 +96,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         seed: arguments.seed,
         ..Request::new(recording.source(), &arm)
     };
+    if let Some(target) = &arguments.marker.marker {
+        let path = &arguments.recording.recording;
+        return marker::run(&arguments.marker, target, &request, path, &destination, &bar);
+    }
     let outcome =
         learned::calibrate(&arguments.learned, &arguments.recording.recording, &request, &bar);
     let outcome = outcome.map_err(|error| match error.downcast() {

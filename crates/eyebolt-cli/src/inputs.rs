@@ -2,6 +2,7 @@
 
 use crate::robots::{Described, DescriptionArguments};
 use anyhow::{Context, Result, bail};
+use eyebolt_markers::{Target, TargetError};
 use eyebolt_recording::{
     BagOptions, CloudFrame, DepthUnit, JointNotes, NotedJoints, Recording, WriteRobot,
 };
@@ -75,6 +76,11 @@ pub fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("must be a number above 0".to_owned()),
     }
+}
+
+/// A marker as flags write it.
+pub fn marker(text: &str) -> Result<Target, String> {
+    text.parse().map_err(|error: TargetError| error.to_string())
 }
 
 fn depth_unit(text: &str) -> Result<DepthUnit, String> {

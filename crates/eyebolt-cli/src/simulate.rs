@@ -8,12 +8,13 @@ mod recording;
 pub use recording::record;
 
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, use_threads};
+use crate::inputs::{CacheArguments, marker, use_threads};
 use crate::output;
 use crate::progress::Waiting;
 use crate::shell::quoted;
 use anyhow::{Result, bail};
 use eyebolt::simulate::{Scenario, plan};
+use eyebolt_markers::Target;
 use eyebolt_render::Sensor;
 use flags::{CameraArguments, FaultArguments, RobotArguments};
 use std::path::PathBuf;
@@ -43,6 +44,10 @@ pub struct Arguments {
     /// Things that stand about: boxes, bottles, balls, cables, people
     #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(0..=50))]
     clutter: u16,
+    /// Put a marker on the hand, on a plate that changes its shape, and take colour pictures: as of `eyebolt
+    /// calibrate --marker`
+    #[arg(long, value_name = "MARKER", value_parser = marker)]
+    marker: Option<Target>,
     /// Seed of all random choices; the same seed gives the same bytes on any number of threads
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -89,6 +94,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     };
     let waiting = Waiting::new("choosing configurations");
     let plan = plan(scenario, &arguments.cache.open())?;
+    let plan = match &arguments.marker {
+        Some(target) => plan.with_marker(target),
+        None => plan,
+    };
     drop(waiting);
     record(&plan, &arguments.output, arguments.force)?;
     output::say(&summary(arguments));
@@ -99,9 +108,11 @@ fn summary(arguments: &Arguments) -> String {
     let Arguments { configurations, frames, sensor, output, .. } = arguments;
     let path = quoted(&output.display().to_string());
     let robot = arguments.robot.to_calibrate();
+    let marker = arguments.marker.as_ref().map(|target| format!(" --marker {target}"));
+    let marker = marker.unwrap_or_default();
     format!(
         "{configurations} x {frames} frames by a simulated {sensor}, written to {}\n\ncalibrate it, and \
-         see how far off that is:\n  eyebolt calibrate {path}{robot} -o calibration.json\n  eyebolt \
+         see how far off that is:\n  eyebolt calibrate {path}{robot}{marker} -o calibration.json\n  eyebolt \
          evaluate {path} calibration.json",
         output.display()
     )

@@ -2,6 +2,7 @@
 
 use crate::error::RecordingError;
 use crate::png_image::{Expected, PngImage};
+use eyebolt_geometry::{Camera, PinholeCamera, Transform};
 use png::ColorType;
 use std::path::Path;
 
@@ -14,6 +15,17 @@ pub struct ColorImage {
     pub height: u32,
     /// `width * height` pixels of `[red, green, blue]`.
     pub rgb: Vec<[u8; 3]>,
+}
+
+/// A colour picture in its own pixels, with the camera that took it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraPicture {
+    /// The picture.
+    pub picture: ColorImage,
+    /// The camera that took it.
+    pub camera: PinholeCamera,
+    /// From its optical frame to the depth optical frame.
+    pub depth_from_color: Transform<Camera, Camera>,
 }
 
 /// Reads a picture, grey ones too, of the size of the range image where that is known.

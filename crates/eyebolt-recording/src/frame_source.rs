@@ -1,12 +1,12 @@
 //! What everything above knows of a recording.
 
-use crate::color::ColorImage;
+use crate::color::{CameraPicture, ColorImage};
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::manifest::RobotSection;
 use crate::message::StaticTransform;
 use crate::provenance::{Provenance, UNKNOWN};
-use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_geometry::{DepthImage, PinholeCamera, Transform};
 use eyebolt_robot::JointPositions;
 use std::fmt::Debug;
 use std::path::Path;
@@ -68,6 +68,22 @@ pub trait FrameSource: Debug + Send + Sync {
     /// No such frame, or a picture that cannot be read.
     fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         check_index(self, index).map(|()| None)
+    }
+
+    /// Reads the colour picture of frame `index` as it was taken, for those who measure in it; `None` if there
+    /// is none, or nobody knows by which camera.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read_color`].
+    fn read_picture(&self, index: usize) -> Result<Option<CameraPicture>, RecordingError> {
+        let (Some(picture), Some(camera)) = (self.read_color(index)?, self.camera()) else {
+            return Ok(None);
+        };
+        let fits = (picture.width, picture.height) == (camera.width(), camera.height());
+        let camera = camera.clone();
+        let depth_from_color = Transform::identity();
+        Ok(fits.then_some(CameraPicture { picture, camera, depth_from_color }))
     }
 
     /// Number of depth images of the scene without the robot, or with the robot out of view.
@@ -166,6 +182,7 @@ mod tests {
         let frame = Frame { name: "a".to_owned(), range, mask: None, joints };
         let least = Least(frame, vec!["a".to_owned()]);
         assert!(least.read_color(0).unwrap().is_none());
+        assert!(least.read_picture(0).unwrap().is_none());
         let error = least.read_color(1).unwrap_err();
         assert!(matches!(error, RecordingError::NoSuchFrame { index: 1, count: 1, .. }));
         let error = least.read_background(0).unwrap_err();

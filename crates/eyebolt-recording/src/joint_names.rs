@@ -1,6 +1,6 @@
 //! A recording whose joints are called otherwise than the robot's, or that lacks some of them.
 
-use crate::color::ColorImage;
+use crate::color::{CameraPicture, ColorImage};
 use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::frame_source::FrameSource;
@@ -94,6 +94,10 @@ impl FrameSource for NotedJoints {
 
     fn read_color(&self, index: usize) -> Result<Option<ColorImage>, RecordingError> {
         self.recording.read_color(index)
+    }
+
+    fn read_picture(&self, index: usize) -> Result<Option<CameraPicture>, RecordingError> {
+        self.recording.read_picture(index)
     }
 
     fn background_count(&self) -> usize {

@@ -80,7 +80,7 @@ mod write;
 pub use bag::{BagKind, is_bag};
 pub use bag_recording::{BagOptions, BagRecording, list_topics, static_transforms};
 pub use camera_info::CameraInfo;
-pub use color::ColorImage;
+pub use color::{CameraPicture, ColorImage};
 pub use depth_unit::DepthUnit;
 pub use describe::{Described, describe_folder, description_of};
 pub use error::RecordingError;

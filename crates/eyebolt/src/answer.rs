@@ -9,6 +9,7 @@ mod fixed;
 
 pub use findings::{CameraMovedBetween, LinkLength, Part, StatedIntrinsics};
 pub use fixed::Fixed;
+pub(crate) use fixed::around;
 
 use crate::calibrate::{Calibration, Deviation, ErrorEstimate, Verdict};
 use crate::observations::{Background, ImageSource, Observations};
@@ -22,6 +23,10 @@ use std::collections::BTreeMap;
 
 /// Name and version of the form of [`Answer`].
 pub const SCHEMA: &str = "eyebolt.calibration/1";
+
+/// How to read transforms.
+pub(crate) const CONVENTION: &str = "a_from_b maps coordinates in b to coordinates in a; camera is the depth \
+                          optical frame: x right, y down, z forward";
 
 /// What a calibration file says.
 #[derive(Clone, Debug, Serialize)]
@@ -385,7 +390,7 @@ fn end_effector_off_mm(observations: &Observations, calibration: &Calibration) -
     moved.max_by(f64::total_cmp)
 }
 
-fn is_zero(count: &usize) -> bool {
+pub(crate) fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
@@ -402,13 +407,14 @@ fn frames(request: &Request<'_>) -> Frames {
         base: request.arm.base_name().to_owned(),
         end_effector: request.arm.end_effector_name().to_owned(),
         guessed: guessed_links(request.arm),
-        convention: "a_from_b maps coordinates in b to coordinates in a; camera is the depth \
-                     optical frame: x right, y down, z forward",
+        convention: CONVENTION,
     }
 }
 
 impl Pose {
-    fn new<To: CoordinateFrame, From: CoordinateFrame>(pose: &Transform<To, From>) -> Self {
+    pub(crate) fn new<To: CoordinateFrame, From: CoordinateFrame>(
+        pose: &Transform<To, From>,
+    ) -> Self {
         let matrix = pose.matrix();
         let row = |r: usize| [0, 1, 2, 3].map(|c| matrix[(r, c)]);
         Self {
@@ -421,7 +427,7 @@ impl Pose {
 
 impl Size {
     /// `None` where there is no finite number to write.
-    fn new(deviation: &Deviation) -> Option<Self> {
+    pub(crate) fn new(deviation: &Deviation) -> Option<Self> {
         let translation_mm = 1e3 * deviation.translation_m;
         let rotation_deg = deviation.rotation_rad.to_degrees();
         (translation_mm.is_finite() && rotation_deg.is_finite())
@@ -434,7 +440,7 @@ fn leave_one_out(error: &ErrorEstimate) -> Option<LeaveOneOut> {
     Some(LeaveOneOut { worst: Size::new(&worst)?, rms: Size::new(&rms)? })
 }
 
-fn rows(matrix: &Matrix6<f64>) -> Option<[[f64; 6]; 6]> {
+pub(crate) fn rows(matrix: &Matrix6<f64>) -> Option<[[f64; 6]; 6]> {
     let row = |r: usize| [0, 1, 2, 3, 4, 5].map(|c| matrix[(r, c)]);
     matrix.iter().all(|v| v.is_finite()).then(|| [0, 1, 2, 3, 4, 5].map(row))
 }
@@ -464,7 +470,7 @@ fn source_name(source: &ImageSource) -> &'static str {
 }
 
 impl Intrinsics {
-    fn new(camera: &PinholeCamera) -> Self {
+    pub(crate) fn new(camera: &PinholeCamera) -> Self {
         let coefficients = camera.distortion().coefficients();
         let (distortion_model, count) = match camera.distortion() {
             Distortion::None => ("none", 0),

@@ -14,6 +14,8 @@ pub mod joint_limits;
 pub mod label;
 #[cfg(test)]
 mod made_up;
+pub mod marker_answer;
+pub mod markers;
 pub mod observations;
 mod other_unit;
 pub mod paper;

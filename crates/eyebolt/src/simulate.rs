@@ -14,7 +14,9 @@ mod faults;
 mod in_memory;
 mod lab;
 mod occlusion;
+mod picture;
 mod plan;
+mod plate;
 mod random_stream;
 mod record;
 mod rejected;
@@ -30,6 +32,7 @@ mod timeline;
 mod true_arm;
 mod true_view;
 mod viewpoint;
+mod with_marker;
 
 pub(crate) use body::{placed_links, rests};
 pub use error::SimulateError;

@@ -11,6 +11,7 @@ mod good;
 mod info;
 mod label;
 mod learned;
+mod marker;
 mod messages;
 mod outcome;
 mod pose;

@@ -8,7 +8,7 @@ use crate::camera_info::{CameraInfo, PictureForm};
 use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::message::{CameraInfoMessage, WireReader};
-use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_geometry::{Camera, DepthImage, PinholeCamera, Transform};
 use nalgebra::{Isometry3, Point2, Point3};
 use std::path::Path;
 
@@ -46,6 +46,11 @@ impl ColorView {
         let picture = PictureForm { rectified: is_rectified(color), size: size(color) };
         let camera = CameraInfo::from_message(path, &message, picture)?.camera;
         Ok(Some(Self { camera, color_from_depth }))
+    }
+
+    /// Where this camera stands against the depth camera.
+    pub(super) fn depth_from_color(&self) -> Transform<Camera, Camera> {
+        Transform::from_isometry(self.color_from_depth.inverse())
     }
 
     /// `picture`, which is of this camera's size, in the pixels of `depth`, which `depth_camera` saw.

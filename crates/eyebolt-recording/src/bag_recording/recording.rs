@@ -15,7 +15,7 @@ use super::scan::{FrameEntry, Scan};
 use super::topics::summaries;
 use crate::bag::{Bag, BagKind};
 use crate::camera_info::CameraInfo;
-use crate::color::ColorImage;
+use crate::color::{CameraPicture, ColorImage};
 use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Frame;
@@ -23,7 +23,7 @@ use crate::frame_source::{FrameSource, check_index};
 use crate::manifest::{CloudFrame, RobotSection};
 use crate::message::{StaticTransform, types};
 use crate::provenance::{ClockOffset, DroppedFrame, Provenance, TopicSummary};
-use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_geometry::{DepthImage, PinholeCamera, Transform};
 use eyebolt_robot::JointPositions;
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
@@ -282,6 +282,20 @@ impl FrameSource for BagRecording {
         let Some(color) = reader.color(topic, picture)? else { return Ok(None) };
         let depth = self.reader().depth_image(&self.range, entry)?;
         Ok(Some(view.seen_by(camera, &depth, &color)))
+    }
+
+    fn read_picture(&self, index: usize) -> Result<Option<CameraPicture>, RecordingError> {
+        check_index(self, index)?;
+        let entry = self.range.entries.get(index).expect("as many pictures as names");
+        let Some((topic, picture)) = picture_of(self.color.as_ref(), entry) else {
+            return Ok(None);
+        };
+        let view = self.color_view.as_ref();
+        let Some(camera) = view.map(|view| &view.camera).or(self.camera()) else { return Ok(None) };
+        let reader = FrameReader { camera: Some(camera), ..self.reader() };
+        let Some(picture) = reader.color(topic, picture)? else { return Ok(None) };
+        let depth_from_color = view.map_or(Transform::identity(), ColorView::depth_from_color);
+        Ok(Some(CameraPicture { picture, camera: camera.clone(), depth_from_color }))
     }
 
     fn background_count(&self) -> usize {

@@ -18,7 +18,7 @@ pub struct Fixed {
 }
 
 /// Those of `all` that are connected to one of `frames`, in their order.
-pub(super) fn around(all: &[StaticTransform], frames: &[&str]) -> Vec<Fixed> {
+pub(crate) fn around(all: &[StaticTransform], frames: &[&str]) -> Vec<Fixed> {
     let mut known: BTreeSet<&str> =
         frames.iter().copied().filter(|name| !name.is_empty()).collect();
     loop {

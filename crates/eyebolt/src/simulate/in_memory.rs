@@ -5,7 +5,9 @@ use super::plan::Plan;
 use super::random_stream::RandomStream;
 use super::record::FRAME_ID;
 use eyebolt_geometry::DepthImage;
-use eyebolt_recording::{InMemory, RecordingError, RobotSection, depth_from_millimetres};
+use eyebolt_recording::{
+    FrameSource, InMemory, RecordingError, RobotSection, depth_from_millimetres,
+};
 
 impl Plan<'_> {
     /// The frames at rest that [`Self::record`] writes, with their joints, the backgrounds and the
@@ -41,13 +43,18 @@ impl Plan<'_> {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
             let joints = encoders.read(&pose.joints, before, &pose.joints);
             let shot = self.look_at_rest(index);
+            let painted = self.painted(index);
             for frame in 0..scenario.frames {
                 // Frames of all kinds are counted: each has the noise that it has in a file.
                 let place = index * (scenario.frames + scenario.moving_frames) + frame;
                 let depth = self.as_stored(shot.frame(noise.at(place as u64)));
                 match source.push(format!("{index}-{frame}"), depth, joints.clone()) {
-                    Err(RecordingError::EmptyFrame { .. }) => {}
+                    Err(RecordingError::EmptyFrame { .. }) => continue,
                     pushed => drop(pushed?),
+                }
+                if let Some(painted) = &painted {
+                    let last = source.frame_names().len() - 1;
+                    source.set_color(last, painted.frame(place as u64))?;
                 }
             }
         }

@@ -4,6 +4,7 @@ use super::body::ArmBody;
 use super::configurations::{Onlooker, Pose, choose, choose_alike};
 use super::dress::soft_parts;
 use super::error::SimulateError;
+use super::plate::Plate;
 use super::random_stream::RandomStream;
 use super::scenario::Scenario;
 use super::solids::Solid;
@@ -15,6 +16,7 @@ use super::{occlusion, scene, surroundings};
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::{RayScene, SceneMesh};
+use eyebolt_robot::JointPositions;
 use nalgebra::{Point3, Vector3};
 
 /// Where everything is.
@@ -34,6 +36,8 @@ pub struct Plan<'a> {
     solids: Vec<Solid>,
     room: usize,
     stages: Vec<Stage>,
+    /// What the hand holds towards the camera, if it does.
+    pub(super) plate: Option<Plate>,
 }
 
 /// Decides where everything of `scenario` is; `cache` keeps shapes of links.
@@ -71,6 +75,7 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         solids,
         room: walls,
         stages,
+        plate: None,
     })
 }
 
@@ -151,9 +156,18 @@ impl Plan<'_> {
         &self.solids
     }
 
-    /// The links of `arm`, then what stands around in a configuration.
-    pub(super) fn scene(&self, arm: &[SceneMesh<'_>], configuration: usize) -> RayScene {
-        self.scene_on(arm, self.stages.get(configuration))
+    /// The links of the arm with its joints at `joints`, the plate on its hand, then what stands around in a
+    /// configuration.
+    pub(super) fn scene(
+        &self,
+        arm: &[SceneMesh<'_>],
+        joints: &JointPositions,
+        configuration: usize,
+    ) -> RayScene {
+        let hand = self.body.arm.base_from_end_effector(joints);
+        let plate = self.plate.as_ref().zip(hand.ok()).map(|(plate, hand)| plate.at(&hand));
+        let with_plate: Vec<_> = arm.iter().copied().chain(plate).collect();
+        self.scene_on(&with_plate, self.stages.get(configuration))
     }
 
     /// What stands around when the arm is not there yet: nobody has passed by.

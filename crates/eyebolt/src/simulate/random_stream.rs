@@ -22,6 +22,7 @@ pub(super) enum RandomStream {
     Gloss,
     Wander,
     FixedPattern,
+    Pictures,
 }
 
 impl RandomStream {

@@ -56,6 +56,7 @@ impl Plan<'_> {
         for (index, pose) in self.poses.iter().enumerate() {
             let before = index.checked_sub(1).map(|before| &self.poses[before].joints);
             let mut resting: Option<Shot> = None;
+            let painted = self.painted(index);
             for moment in timeline.moments(index, before, &pose.joints) {
                 let Event::Frame { at_rest } = moment.event else {
                     let read = encoders.read(&moment.joints, before, &pose.joints);
@@ -67,6 +68,9 @@ impl Plan<'_> {
                 let shot = known.unwrap_or_else(|| self.look(&moment.joints, index));
                 let frame = shot.frame(RandomStream::Frames.of(scenario.seed).at(done as u64));
                 writer.depth(self.skewed_ns(moment.stamp_ns), &frame)?;
+                if let Some(painted) = painted.as_ref().filter(|_| at_rest) {
+                    writer.color(self.skewed_ns(moment.stamp_ns), &painted.frame(done as u64))?;
+                }
                 resting = at_rest.then_some(shot);
                 done += 1;
             }
@@ -112,10 +116,15 @@ impl Plan<'_> {
 
     /// What the camera sees with the arm at `joints`, on the way to a configuration or there.
     fn look(&self, joints: &JointPositions, configuration: usize) -> Shot {
+        let scene = self.scene_with(joints, configuration);
+        self.look_at(&scene, self.pose_at(configuration), Some(configuration))
+    }
+
+    /// The scene with the arm at `joints`.
+    pub(super) fn scene_with(&self, joints: &JointPositions, configuration: usize) -> RayScene {
         let posture = self.body.posture(joints);
         let posture = posture.expect("the arm was posed with these joints, or others between them");
-        let scene = self.scene(&self.body.scene_meshes(&posture), configuration);
-        self.look_at(&scene, self.pose_at(configuration), Some(configuration))
+        self.scene(&self.body.scene_meshes(&posture), joints, configuration)
     }
 
     fn look_at(
@@ -135,7 +144,7 @@ impl Plan<'_> {
     }
 
     /// Where the camera is while the arm goes to, and rests in, a configuration.
-    fn pose_at(&self, configuration: usize) -> &Transform<Base, Camera> {
+    pub(super) fn pose_at(&self, configuration: usize) -> &Transform<Base, Camera> {
         let after = configuration >= self.bumped_at();
         self.bumped.as_ref().filter(|_| after).unwrap_or(&self.base_from_camera)
     }

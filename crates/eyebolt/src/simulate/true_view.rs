@@ -32,7 +32,8 @@ impl Plan<'_> {
     /// If there is no such configuration.
     pub fn true_view(&self, index: usize) -> TrueView {
         let arm = self.body.scene_meshes(&self.poses[index].posture);
-        let view = self.scene(&arm, index).view(&self.camera, &self.base_from_camera);
+        let scene = self.scene(&arm, &self.poses[index].joints, index);
+        let view = scene.view(&self.camera, &self.base_from_camera);
         let seen = view.surface.iter().map(|surface| usize::from(*surface));
         let label = seen.clone().map(|surface| match self.body.is_end_effector.get(surface) {
             None => TrueView::BACKGROUND,

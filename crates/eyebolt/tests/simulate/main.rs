@@ -11,6 +11,7 @@ mod in_memory;
 mod joint_offsets;
 mod lab;
 mod labels;
+mod markers;
 mod motion;
 mod other_unit;
 mod presets;

@@ -1,0 +1,61 @@
+//! Motions between two poses: what closed-form solvers are fed.
+
+use super::poses::PosePair;
+use eyebolt_geometry::{CoordinateFrame, rotation_log};
+use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Vector3};
+
+/// How the marker and the carrier moved between two poses: `camera * camera_from_root = camera_from_root *
+/// root`, in the literature's words AX = XB.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion {
+    pub camera: Isometry3<f64>,
+    pub root: Isometry3<f64>,
+}
+
+/// Turned by more than this, it is not sure which way around: noise turns the axis about.
+const LARGEST_RAD: f64 = 3.0;
+/// The motions' axes have to differ: the root mean square of the rotation about all axes but the main one.
+pub(super) const SPREAD_RAD: f64 = 0.02;
+
+/// The motions between any two poses.
+pub(super) fn motions<Root: CoordinateFrame, Carrier: CoordinateFrame>(
+    pairs: &[PosePair<Root, Carrier>],
+) -> Vec<Motion> {
+    let between = |a: &PosePair<Root, Carrier>, b: &PosePair<Root, Carrier>| Motion {
+        camera: b.camera_from_marker.isometry() * a.camera_from_marker.inverse().isometry(),
+        root: b.root_from_carrier.isometry() * a.root_from_carrier.inverse().isometry(),
+    };
+    let each = pairs.iter().enumerate();
+    let all: Vec<Motion> =
+        each.flat_map(|(i, a)| pairs.iter().skip(i + 1).map(move |b| between(a, b))).collect();
+    let sure = |m: &&Motion| {
+        m.root.rotation.angle() <= LARGEST_RAD && m.camera.rotation.angle() <= LARGEST_RAD
+    };
+    let few: Vec<Motion> = all.iter().filter(sure).copied().collect();
+    if spread_rad(&few) >= SPREAD_RAD { few } else { all }
+}
+
+/// Root mean square of the robot's rotation about the axes that it turned about least; with none, the
+/// translation along the main axis is open.
+pub(super) fn spread_rad(motions: &[Motion]) -> f64 {
+    let axes = motions.iter().map(|m| rotation_log(&m.root.rotation));
+    let moment: Matrix3<f64> = axes.map(|v: Vector3<f64>| v * v.transpose()).sum();
+    let mean = moment / motions.len().max(1) as f64;
+    let mut values: Vec<f64> = SymmetricEigen::new(mean).eigenvalues.iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    // Two axes are enough; the third follows.
+    values.get(1).map_or(0.0, |v| v.max(0.0).sqrt())
+}
+
+/// The translation of `camera_from_root` that fits `motions` best, of the given rotation, metres.
+pub(super) fn translation_m(motions: &[Motion], rotation: &Matrix3<f64>) -> Option<Vector3<f64>> {
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for motion in motions {
+        let rows = motion.camera.rotation.to_rotation_matrix().into_inner() - Matrix3::identity();
+        let off = rotation * motion.root.translation.vector - motion.camera.translation.vector;
+        normal += rows.transpose() * rows;
+        right += rows.transpose() * off;
+    }
+    let translation = normal.cholesky()?.solve(&right);
+    translation.iter().all(|v| v.is_finite()).then_some(translation)
+}
