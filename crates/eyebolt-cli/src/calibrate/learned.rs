@@ -1,11 +1,13 @@
 //! What networks have to do with a calibration.
 
 use anyhow::{Result, bail};
+use eyebolt::calibrate::Limits;
 use eyebolt::label::{Labeller, Learned};
 use eyebolt::paper::{self, FrameEstimator, FrameLabels, Paper};
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::pose::{
-    ByEndEffector, EndEffectorShape, GlobalSearch, PoseEstimator, PoseMethod, PoseProposer,
+    ByEndEffector, EndEffectorShape, GlobalSearch, PoseError, PoseEstimator, PoseMethod,
+    PoseProposer,
 };
 use eyebolt::progress::Progress;
 use eyebolt::segment::Segmenter;
@@ -73,16 +75,23 @@ pub fn calibrate(
     }
 }
 
+/// Networks know the arm's pixels in each image by itself, so that two configurations do: what more of them would
+/// tell is allowed for in the expected error.
+const FEWEST: usize = 2;
+
 fn by_networks(folder: &Path, request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome> {
     let segmenter = Segmenter::open(folder)?;
     let tells_end_effector = segmenter.tells_end_effector();
     let labeller = Learned::new(segmenter);
-    let estimator = match tells_end_effector && tells_poses(folder) {
-        true => Some(estimator(folder, request)?),
+    let estimator = match tells_end_effector {
+        true => estimator_if_any(folder, request)?,
         false => None,
     };
     let proposer = estimator.map(|it| ByEndEffector::new(it, GlobalSearch::new(request.seed)));
+    let limits =
+        Limits { configurations: FEWEST.min(request.limits.configurations), ..request.limits };
     let request = Request {
+        limits,
         labeller: Some(&labeller as &dyn Labeller),
         proposer: proposer.as_ref().map(|it| it as &dyn PoseProposer),
         ..request.clone()
@@ -90,14 +99,17 @@ fn by_networks(folder: &Path, request: &Request<'_>, progress: &dyn Progress) ->
     Ok(pipeline::run(&request, progress)?)
 }
 
-/// Whether a model has networks for poses: any-arm has none.
-fn tells_poses(folder: &Path) -> bool {
-    ["rotation", "keypoints"].iter().any(|net| folder.join(net).is_dir())
+fn estimator(folder: &Path, request: &Request<'_>) -> Result<PoseEstimator, PoseError> {
+    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
+    PoseEstimator::open(folder, shape, PoseMethod::Fused)
 }
 
-fn estimator(folder: &Path, request: &Request<'_>) -> Result<PoseEstimator> {
-    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
-    Ok(PoseEstimator::open(folder, shape, PoseMethod::Fused)?)
+/// `None` of a model that has no networks for poses.
+fn estimator_if_any(folder: &Path, request: &Request<'_>) -> Result<Option<PoseEstimator>> {
+    match estimator(folder, request) {
+        Err(PoseError::NoNetwork { .. }) => Ok(None),
+        opened => Ok(Some(opened?)),
+    }
 }
 
 fn by_paper(

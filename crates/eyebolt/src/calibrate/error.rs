@@ -29,6 +29,8 @@ pub enum ErrorSource {
     Description,
     /// Allowed for what other kinds of evidence would have told, where there is only one.
     OneKind,
+    /// Allowed for what leaving out single configurations would have told, where there are too few.
+    FewConfigurations,
 }
 
 /// What one source adds to the expected error; parts add up in squares.
@@ -110,6 +112,10 @@ pub(crate) fn estimate(
             (ErrorSource::OneKind, Matrix6::from_diagonal(&variance))
         }
     });
+    if without.is_none() {
+        let told: Matrix6<f64> = sources.iter().map(|(_, covariance)| covariance).sum();
+        sources.push((ErrorSource::FewConfigurations, UNTOLD * told));
+    }
     let covariance: Matrix6<f64> = sources.iter().map(|(_, covariance)| covariance).sum();
     let parts = sources.into_iter().map(|(source, covariance)| ErrorPart {
         source,
@@ -173,6 +179,10 @@ pub(crate) fn expected_at(
         joint_sigma_rad: [f64::INFINITY; MOST_JOINTS],
     }
 }
+
+/// What one or two configurations do not tell, as a part of the variance that they do: of 16 simulated sessions of
+/// so few, rotations were off by up to three times as much as the rest lets one expect.
+const UNTOLD: f64 = 3.0;
 
 /// By how much the variances of the noise model have to be enlarged for the answers of single kinds of
 /// evidence to agree with it (R. T. Birge, Physical Review 1932); infinite where that cannot be told.

@@ -75,6 +75,10 @@ fn words(source: ErrorSource) -> [&'static str; 2] {
             "description and intrinsics",
             "lengths of links and intrinsics that may be off, each as likely as the data make it",
         ],
+        ErrorSource::FewConfigurations => [
+            "few configurations",
+            "an allowance for what leaving configurations out would have told: there are too few of them",
+        ],
         ErrorSource::OneKind => [
             "one kind of evidence",
             "an allowance for what outlines would have told: none was seen",
