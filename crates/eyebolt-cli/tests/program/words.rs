@@ -23,9 +23,12 @@ fn the_line_to_record_with_is_todays() {
     assert_eq!((ended.code, ended.out.as_str()), (Some(0), expected));
     let own = eyebolt(&["record-command", "--depth-topic", "/eye/depth", "--humble"]).out;
     assert!(own.contains(" my_bag /eye/depth /eye/camera_info ") && !own.contains("--topics"));
-    // README and the program say the same.
-    let readme = include_str!("../../../../README.md").replace("\\\n        ", "");
-    assert!(readme.contains(expected.trim_end()));
+    // What is written and the program say the same.
+    let written =
+        [include_str!("../../../../README.md"), include_str!("../../../../docs/recordings.md")];
+    for page in written {
+        assert!(page.replace("\\\n        ", "").contains(expected.trim_end()));
+    }
 }
 
 #[test]
