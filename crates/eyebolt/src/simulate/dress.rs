@@ -106,7 +106,8 @@ fn cover_on(robot: &Robot, link: usize, random: &mut Random) -> Option<Soft> {
     Some(Soft { link, body })
 }
 
-fn bounds(robot: &Robot, link: usize) -> Option<(Point3<f64>, Point3<f64>)> {
+/// A box about the shape of a link.
+pub(super) fn bounds(robot: &Robot, link: usize) -> Option<(Point3<f64>, Point3<f64>)> {
     let mesh = link_mesh(robot.links.get(link)?, Prefer::Visual).ok().flatten()?;
     mesh.bounds().map(|(low, high)| (low.cast(), high.cast()))
 }
