@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let destination = Destination::new(&arguments.output, arguments.force)?;
     leaves("nothing was written".to_owned())?;
     let bar = Bar::new();
-    let recording = arguments.recording.open()?;
+    let recording = arguments.recording.open_of(&arguments.robot)?;
     if let Some(folder) = &arguments.save_overlay {
         check_overlays(folder, &recording, arguments.force)?;
     }

@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let kind = Kind::of(output)?;
     check(arguments, kind)?;
     let waiting = Waiting::new("reading the recording");
-    let recording = arguments.recording.open()?;
+    let recording = arguments.recording.open_of(&arguments.robot)?;
     drop(waiting);
     let files = &recording.provenance().files;
     files.iter().try_for_each(|source| refuse_source(output, source))?;
@@ -94,8 +94,14 @@ fn check_replaceable(folder: &Path) -> Result<()> {
     let known = |name: &str| {
         let images = ["depth_", "cloud_", "mask_", "color_", "background_"];
         let image = images.iter().any(|prefix| name.starts_with(prefix));
-        const OTHERS: [&str; 5] =
-            ["recording.toml", "camera_info.yaml", "joints.csv", "robot.urdf", "truth.json"];
+        const OTHERS: [&str; 6] = [
+            "recording.toml",
+            "camera_info.yaml",
+            "tf_static.yaml",
+            "joints.csv",
+            "robot.urdf",
+            "truth.json",
+        ];
         OTHERS.contains(&name) || (image && (name.ends_with(".png") || name.ends_with(".npy")))
     };
     let failed = || format!("{}: cannot be listed. Name another place", folder.display());

@@ -4,7 +4,7 @@ use crate::ending::Ending;
 use crate::names;
 use crate::output::{self, STDOUT};
 use crate::robots::packages;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use eyebolt::export::{Format, Note, Placement, SavedCalibration, StaticTree, Wanted};
 use std::path::{Path, PathBuf};
@@ -83,11 +83,35 @@ fn format() -> impl TypedValueParser<Value = Format> {
     })
 }
 
+/// Whoever reads a file later goes by how its name ends; one without an ending is left to the caller.
+fn check_ending(path: &Path, format: Format) -> Result<()> {
+    let Some(ending) = path.extension().map(|ending| ending.to_string_lossy().to_lowercase())
+    else {
+        return Ok(());
+    };
+    if format.endings().contains(&ending.as_str()) {
+        return Ok(());
+    }
+    let usual = format.endings().first().copied().unwrap_or_default();
+    let others = Format::ALL.into_iter().filter(|other| other.endings().contains(&ending.as_str()));
+    let others: Vec<String> = others.map(|other| format!("--as {}", other.name())).collect();
+    let instead = match others.is_empty() {
+        true => String::new(),
+        false => format!(", or give {} for .{ending}", others.join(" or ")),
+    };
+    bail!(
+        "{}: --output: files of --as {} end in .{usual}. Give .{usual} for it{instead}",
+        path.display(),
+        format.name()
+    );
+}
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     let to_file = arguments.output.as_deref().filter(|path| *path != Path::new(STDOUT));
     if let Some(path) = to_file {
         output::refuse_existing(path, arguments.force)?;
+        check_ending(path, arguments.format)?;
     }
     let calibration = SavedCalibration::read(&arguments.calibration)?;
     let wanted = Wanted {

@@ -26,7 +26,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     let waiting = Waiting::new("reading the recording");
-    let recording = match arguments.recording.open_any_depth() {
+    let recording = match arguments.recording.open_any_depth(&arguments.robot) {
         Ok(recording) => recording,
         Err(error) => {
             // Which topics there are is what one wants to know now.

@@ -95,6 +95,7 @@ impl BagArguments {
             camera_info_topic: self.camera_info_topic.clone(),
             camera_info: self.camera_info.clone(),
             joint_topic: self.joint_topic.clone(),
+            robot_joints: Vec::new(),
             description_topic: self.description_topic.clone(),
             color_topic: self.color_topic.clone(),
             mask_topic: self.mask_topic.clone(),
@@ -110,6 +111,11 @@ impl BagArguments {
             scratch: std::env::temp_dir(),
         }
     }
+
+    /// As [`Self::options`], with the joints of `robot`, if that is named.
+    pub fn options_of(&self, robot: &RobotArguments) -> BagOptions {
+        BagOptions { robot_joints: robot.joint_names(), ..self.options() }
+    }
 }
 
 impl RecordingArguments {
@@ -117,9 +123,14 @@ impl RecordingArguments {
         Ok(Recording::open(&self.recording, &self.bag.options())?)
     }
 
-    /// As [`Self::open`], with one of several topics of depth where none is named.
-    pub fn open_any_depth(&self) -> Result<Recording> {
-        let options = BagOptions { any_depth: true, ..self.bag.options() };
+    /// Opens it, as one of `robot`, if that is named.
+    pub fn open_of(&self, robot: &RobotArguments) -> Result<Recording> {
+        Ok(Recording::open(&self.recording, &self.bag.options_of(robot))?)
+    }
+
+    /// As [`Self::open_of`], with one of several topics of depth where none is named.
+    pub fn open_any_depth(&self, robot: &RobotArguments) -> Result<Recording> {
+        let options = BagOptions { any_depth: true, ..self.bag.options_of(robot) };
         Ok(Recording::open(&self.recording, &options)?)
     }
 }
@@ -195,6 +206,19 @@ impl RobotArguments {
     /// Positions of joints that the flags state.
     pub fn stated_joints(&self) -> impl Iterator<Item = (String, f64)> {
         self.joint.iter().cloned()
+    }
+
+    /// What the recording may call the joints of the robot that the flags name; nothing where they name
+    /// none, or one that cannot be read, which is told later.
+    pub fn joint_names(&self) -> Vec<String> {
+        let named = self.robot.as_ref().and_then(|name| self.description.named(name).ok());
+        let names = named.map_or_else(Vec::new, |described| described.robot.own_joints());
+        let Some(prefix) = &self.joint_prefix else { return names };
+        let other = |name: &String| match name.strip_prefix(prefix.as_str()) {
+            Some(bare) => bare.to_owned(),
+            None => format!("{prefix}{name}"),
+        };
+        names.iter().map(other).collect()
     }
 
     /// As [`Self::arm`]; `None` if neither flags nor recording say what the robot is.

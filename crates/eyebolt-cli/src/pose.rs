@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         output::refuse_existing(path, arguments.force)?;
     }
     let path = &arguments.recording.recording;
-    let recording = arguments.recording.open()?;
+    let recording = arguments.recording.open_of(&arguments.robot)?;
     let names = recording.frame_names().to_vec();
     if names.is_empty() {
         bail!("{}: there is no frame in it", path.display());

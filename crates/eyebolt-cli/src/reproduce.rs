@@ -1,41 +1,16 @@
 //! `eyebolt reproduce`.
 
+mod arguments;
 mod steps;
 
 use crate::ending::Ending;
 use crate::output;
 use crate::shell::quoted;
 use anyhow::{Context, Result, bail};
-use std::path::PathBuf;
+pub use arguments::Arguments;
 use std::process::Command;
 use std::time::Instant;
 use steps::{Step, steps};
-
-/// Options of `eyebolt reproduce`.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {
-    /// Folder for all of it; what is there already is not made again
-    #[arg(short, long, value_name = "FOLDER", default_value = "reproduction")]
-    output: PathBuf,
-    /// A robot that comes with the program, or a URDF with its meshes
-    #[arg(long, value_name = "NAME|URDF", default_value = "shackle")]
-    robot: String,
-    /// In ten minutes instead of hours: fewer frames, and networks that have hardly learned
-    #[arg(long)]
-    quick: bool,
-    /// Evaluate the networks of this folder, instead of recording, labelling and training
-    #[arg(long, value_name = "FOLDER")]
-    model: Option<PathBuf>,
-    /// Also teach networks on each of the three training poses alone, and evaluate each on each test pose
-    #[arg(long, conflicts_with = "model")]
-    each: bool,
-    /// Steps of each network [default: 20000, or 400 with --quick]
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "model")]
-    steps: Option<u64>,
-    /// Begin with the weights of another model, as far as they fit
-    #[arg(long, value_name = "FOLDER", conflicts_with = "model")]
-    from: Option<PathBuf>,
-}
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {

@@ -34,6 +34,7 @@ struct Found {
     joints: Option<Series>,
     table: Option<String>,
     info: Option<(String, Option<f64>)>,
+    tf_static: Option<String>,
     urdf: Option<String>,
 }
 
@@ -99,6 +100,9 @@ fn look(folder: &Path) -> Result<Found, RecordingError> {
             "urdf" => found.urdf = found.urdf.or(Some(name)),
             "csv" if name.contains("joint") => found.table = found.table.or(Some(name)),
             "json" if name.contains("joint") => found.table = found.table.or(Some(name)),
+            "yaml" | "yml" | "json" if name.contains("tf_static") => {
+                found.tf_static = found.tf_static.or(Some(name));
+            }
             "yaml" | "yml" | "json" if found.info.is_none() => {
                 found.info = CameraInfo::read(&path).ok().map(|info| (name, info.depth_unit_m));
             }
@@ -133,6 +137,9 @@ fn text(folder: &Path, found: &Found, names: &[String]) -> Described {
                 );
             }
         }
+    }
+    if let Some(name) = &found.tf_static {
+        line(format!("tf_static = {}", quoted(name)));
     }
     line("\n[frames]".to_owned());
     let told = found.info.as_ref().and_then(|(_, unit)| *unit);

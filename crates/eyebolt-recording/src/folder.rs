@@ -12,8 +12,11 @@ use crate::frame::Frame;
 use crate::frame_source::FrameSource;
 use crate::joints::{Joints, read_joints};
 use crate::manifest::{Manifest, RangeKind, RobotSection};
+use crate::message::StaticTransform;
+use crate::npy::{Dtype, Npy};
 use crate::pattern::Pattern;
 use crate::provenance::Provenance;
+use crate::tf_file;
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_robot::JointPositions;
 use frame_files::FrameFiles;
@@ -31,14 +34,15 @@ pub struct Folder {
     joints: Joints,
     /// Names of the backgrounds.
     backgrounds: Vec<String>,
+    static_transforms: Vec<StaticTransform>,
     provenance: Provenance,
 }
 
 impl Folder {
     /// Opens the recording whose folder, or whose `recording.toml`, is at `path`.
     ///
-    /// Reads the description, the camera and the table of the joints if there is one, lists the
-    /// frames and checks that their files exist; what is in them is read later.
+    /// Reads the description, the camera, its static transforms and the table of the joints if there are any,
+    /// lists the frames and checks that their files exist; what is in them is read later.
     ///
     /// # Errors
     ///
@@ -66,6 +70,9 @@ impl Folder {
         let backgrounds = background::names(&manifest, &names)?;
         let joints = Joints::open(&manifest, &names)?;
         check_files(&manifest, &joints, &names)?;
+        let tf_static = manifest.tf_static.as_deref();
+        let static_transforms = tf_static.map(|file| tf_file::read(file, "camera.tf_static"));
+        let static_transforms = static_transforms.transpose()?.unwrap_or_default();
         let provenance = Provenance {
             name: path.display().to_string(),
             kind: "folder",
@@ -73,7 +80,7 @@ impl Folder {
             ..Provenance::default()
         };
         let files = FrameFiles { manifest, info };
-        Ok(Self { files, names, joints, backgrounds, provenance })
+        Ok(Self { files, names, joints, backgrounds, static_transforms, provenance })
     }
 
     /// The file that describes it.
@@ -104,6 +111,10 @@ impl FrameSource for Folder {
 
     fn camera_frame_id(&self) -> Option<&str> {
         self.files.info.as_ref()?.frame_id.as_deref()
+    }
+
+    fn static_transforms(&self) -> &[StaticTransform] {
+        &self.static_transforms
     }
 
     fn robot(&self) -> &RobotSection {
@@ -177,7 +188,15 @@ impl FrameSource for Folder {
 
     fn integer_unit_m(&self) -> Option<f64> {
         let manifest = &self.files.manifest;
-        let integers = manifest.kind == RangeKind::Depth && manifest.range.extension() == "png";
+        let first = || self.names.first().map(|name| manifest.range.path(name));
+        // What NPY holds, its header says. A file that cannot be read is told of elsewhere.
+        let integers = manifest.kind == RangeKind::Depth
+            && match manifest.range.extension() {
+                "png" => true,
+                _ => {
+                    first().is_some_and(|file| Npy::read(&file, "depth", &[Dtype::Uint16]).is_ok())
+                }
+            };
         integers.then(|| manifest.unit.metres())
     }
 

@@ -72,6 +72,7 @@ mod png_image;
 mod progress;
 mod provenance;
 mod recording;
+mod tf_file;
 mod truth;
 mod unit_check;
 mod words;
@@ -97,6 +98,7 @@ pub use provenance::{
     ClockOffset, DepthChoice, DropReason, DroppedFrame, Provenance, TopicSummary,
 };
 pub use recording::Recording;
+pub use tf_file::parse_static_transforms;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use words::counted;
 pub use write::{

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Manifest {
     pub(crate) path: PathBuf,
     pub(crate) camera_info: Option<PathBuf>,
+    pub(crate) tf_static: Option<PathBuf>,
     pub(crate) kind: RangeKind,
     pub(crate) range: Pattern,
     pub(crate) unit: DepthUnit,
@@ -68,6 +69,7 @@ impl Manifest {
         Ok(Self {
             path: path.to_path_buf(),
             camera_info: info,
+            tf_static: raw.camera.tf_static.map(|file| root.join(file)),
             kind,
             range,
             unit,

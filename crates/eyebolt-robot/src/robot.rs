@@ -149,6 +149,12 @@ impl Robot {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
+    /// Names of the joints that have positions of their own.
+    pub fn own_joints(&self) -> Vec<String> {
+        let own = self.joints.iter().filter(|joint| joint.moves() && joint.mimic.is_none());
+        own.map(|joint| joint.name.clone()).collect()
+    }
+
     /// BLAKE3 hash of the URDF text, as 64 hexadecimal digits.
     pub fn urdf_hash(&self) -> &str {
         &self.urdf_hash

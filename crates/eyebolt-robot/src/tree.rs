@@ -1,52 +1,18 @@
 //! Links and joints by name into one tree, parents first.
 
+mod mended;
+mod parsed;
+
 use crate::error::RobotError;
 use crate::flaw::{Flaw, Of};
-use crate::robot::{Body, Joint, JointKind, JointLimits, Link, Mimic};
-use eyebolt_geometry::{Transform, frame};
-use nalgebra::{Unit, Vector3};
+use crate::robot::{Joint, Link, Mimic};
+use mended::mended;
+use parsed::Followed;
+pub(crate) use parsed::{Motion, ParsedJoint, ParsedLink};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
 /// Most links: a humanoid with hands has some 200.
 const MAX_LINKS: usize = 5_000;
-
-pub(crate) struct ParsedLink {
-    pub(crate) name: String,
-    pub(crate) visuals: Vec<Body>,
-    pub(crate) collisions: Vec<Body>,
-}
-
-pub(crate) struct ParsedJoint {
-    pub(crate) name: String,
-    pub(crate) parent: String,
-    pub(crate) child: String,
-    pub(crate) motion: Motion,
-}
-
-/// How a joint moves.
-pub(crate) struct Motion {
-    pub(crate) kind: JointKind,
-    pub(crate) parent_from_child_at_zero: Transform<frame::Link, frame::Link>,
-    pub(crate) axis: Unit<Vector3<f64>>,
-    pub(crate) limits: Option<JointLimits>,
-    pub(crate) mimic: Followed,
-}
-
-impl Motion {
-    /// Nothing but its kind is known of it.
-    pub(crate) fn of(kind: JointKind) -> Self {
-        Self {
-            kind,
-            parent_from_child_at_zero: Transform::identity(),
-            axis: Vector3::x_axis(),
-            limits: None,
-            mimic: None,
-        }
-    }
-}
-
-/// Name of the joint to follow, multiplier, offset.
-type Followed = Option<(String, f64, f64)>;
 
 /// Links in an order in which parents come first, joints in the order of their children.
 pub(crate) fn build(
@@ -64,6 +30,7 @@ pub(crate) fn build(
     }
     unique("link", links.iter().map(|link| link.name.as_str())).map_err(broken)?;
     unique("joint", joints.iter().map(|joint| joint.name.as_str())).map_err(broken)?;
+    let joints = mended(file, &links, joints, flaws)?;
     let order = order(&links, &joints).map_err(broken)?;
     let (links, mut joints, followed) = assemble(links, joints, &order);
     let unfollowed =
@@ -100,13 +67,8 @@ fn order(
         };
         let (parent, child) = (find("parent", &joint.parent)?, find("child", &joint.child)?);
         children.entry(parent).or_default().push(child);
-        if let Some(first) = carrier.get_mut(child).and_then(|carrier| carrier.replace(index)) {
-            return Err(format!(
-                "link `{}` is the child of joint `{}` and of joint `{}`; remove one",
-                joint.child,
-                joints.get(first).map_or("", |joint| &joint.name),
-                joint.name
-            ));
+        if let Some(carrier) = carrier.get_mut(child) {
+            *carrier = Some(index);
         }
     }
     let root = only_root(links, &carrier)?;
@@ -133,15 +95,9 @@ fn only_root(links: &[ParsedLink], carrier: &[Option<usize>]) -> Result<usize, S
         .filter_map(|(index, joint)| joint.is_none().then_some(index))
         .collect();
     match roots.as_slice() {
-        [root] => Ok(*root),
+        [root, ..] => Ok(*root),
         [] if links.is_empty() => Err("there are no links; give the URDF of a robot".to_owned()),
         [] => Err("no link is the root: the joints form a cycle; remove one joint".to_owned()),
-        several => {
-            let names: Vec<_> =
-                several.iter().filter_map(|root| Some(links.get(*root)?.name.as_str())).collect();
-            let names = names.join(", ");
-            Err(format!("more than one root: {names}; connect them with fixed joints"))
-        }
     }
 }
 

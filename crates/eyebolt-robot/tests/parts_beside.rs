@@ -205,6 +205,57 @@ fn a_joint_of_the_chain_that_is_wrong_is_named_wherever_it_is() {
     }
 }
 
+#[test]
+fn what_hangs_on_nothing() {
+    let stray = link("stray", BOX) + &link("rod", BOX);
+    let stray = stray + &joint("turns", "revolute", "stray", "rod", "");
+    let words = ["more than one root: base, stray", "takes no part", "fixed joints"];
+    left_out(&Parts { beside: &stray, ..NOTHING }, &words);
+    let words = ["more than one root: stray, base", "takes no part", "fixed joints"];
+    left_out(&Parts { above: &stray, ..NOTHING }, &words);
+    // Whoever means the other one says so.
+    let parts = Parts { above: &stray, ..NOTHING };
+    let robot = Robot::from_urdf_str(&urdf(&parts), None, &PackageRoots::new()).unwrap();
+    let other = robot.arm(Some("stray"), Some("rod")).unwrap();
+    assert_eq!(other.required_joints(), ["turns"]);
+    // No chain leads from one to the other.
+    let error = robot.arm(Some("stray"), Some("c")).unwrap_err().to_string();
+    assert!(error.contains("more than one root"), "{error}");
+    // Two arms: nobody can say which is the robot.
+    let names = ["base", "a", "b", "c"];
+    let twin: String = names.map(|name| link(&format!("{name}_2"), BOX)).concat();
+    let pairs = [("base", "a"), ("a", "b"), ("b", "c")];
+    let twin = twin
+        + &pairs
+            .map(|(parent, child)| {
+                let (parent, child) = (format!("{parent}_2"), format!("{child}_2"));
+                joint(&format!("to_{child}"), "revolute", &parent, &child, "")
+            })
+            .concat();
+    refused(&Parts { beside: &twin, ..NOTHING }, &["more than one root: base, base_2"]);
+}
+
+#[test]
+fn a_link_with_two_parents() {
+    let rod = link("rod", BOX)
+        + &joint("one_end", "revolute", "base", "rod", "")
+        + &joint("other_end", "revolute", "b", "rod", "");
+    let words = ["link `rod` is the child of joint `one_end` and of joint `other_end`", "no part"];
+    left_out(&Parts { beside: &rod, ..NOTHING }, &words);
+    let arm = arm(&Parts { beside: &rod, ..NOTHING }).unwrap();
+    let all: JointPositions = ["to_a", "to_b", "to_c", "one_end", "other_end"]
+        .map(|name| (name.to_owned(), 0.1))
+        .into_iter()
+        .collect();
+    let rod = arm.robot().link_index("rod").unwrap();
+    assert!(arm.known_link_poses(&all).unwrap().base_from_links[rod].is_none());
+    // The arm itself must know what it hangs on, whichever of the joints comes first.
+    let second = joint("second", "fixed", "base", "b", "");
+    let words = ["link `b` is the child of joint", "`second`", "remove one"];
+    refused(&Parts { beside: &second, ..NOTHING }, &words);
+    refused(&Parts { above: &second, ..NOTHING }, &words);
+}
+
 /// Something that may be wrong, and whether it is.
 fn part() -> impl Strategy<Value = (String, bool)> {
     let flaws = prop::sample::select(vec![

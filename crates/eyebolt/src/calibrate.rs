@@ -9,6 +9,7 @@ mod judge;
 mod limits;
 mod one_kind;
 mod reason;
+mod still_part;
 mod unknown_parts;
 mod verdict;
 
@@ -20,4 +21,5 @@ pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;
 pub use reason::{Reason, Verdict};
+pub use still_part::StillPart;
 pub use unknown_parts::UnknownPart;

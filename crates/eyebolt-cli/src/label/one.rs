@@ -45,7 +45,7 @@ impl<'a> Labelling<'a> {
     /// Labels the frames of the recording at `path` that are in this shard.
     pub fn label(&self, path: &Path) -> Result<Told> {
         let arguments = self.arguments;
-        let recording = Recording::open(path, &arguments.bag.options())?;
+        let recording = Recording::open(path, &arguments.bag.options_of(&arguments.robot))?;
         let arm = told(arguments.robot.arm(path, &recording)?);
         let recording = arguments.robot.noted(recording, &arm)?;
         let end_effector = EndEffector::of(&arm)?;
@@ -74,7 +74,7 @@ impl<'a> Labelling<'a> {
             self.draw(file, frame, &end_effector).map_err(Into::into)
         };
         let bar = Counting::new()?;
-        let filled = fill(&mut store, &entry, (source, &arm), &run, &look, &bar);
+        let filled = fill(&mut store, &entry, source, &run, &look, &bar);
         drop(bar);
         let filled = filled.map_err(|error| named(error, path))?;
         Ok(Told::Labelled(Labelled::new(path, &filled)))

@@ -1,6 +1,6 @@
 //! What has to be done, in order.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use std::path::{Path, PathBuf};
 
 /// A command of this program, and what it leaves: if that is there, it was done.

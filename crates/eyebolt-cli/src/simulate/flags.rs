@@ -147,6 +147,10 @@ pub struct FaultArguments {
     #[arg(long, value_name = "MM", default_value_t = 0.0,
           value_parser = number(-100.0, 100.0), allow_hyphen_values = true)]
     link_length_mm: f64,
+    /// How much lower the base is than the description says, millimetres: another variant's
+    #[arg(long, value_name = "MM", default_value_t = 0.0,
+          value_parser = number(-100.0, 100.0), allow_hyphen_values = true)]
+    base_lower_mm: f64,
     /// Only the last half of the joints moves: all configurations are alike
     #[arg(long)]
     wrist_only: bool,
@@ -176,6 +180,7 @@ impl FaultArguments {
             time_skew_s: 1e-3 * self.time_skew_ms,
             one_joint_offset: self.one_joint_offset_deg.to_radians(),
             link_length_m: 1e-3 * self.link_length_mm,
+            base_lower_m: 1e-3 * self.base_lower_mm,
             wrist_only: self.wrist_only,
             occlusion: self.occlusion,
             bump: self.bump.map(|[mm, deg]| [1e-3 * mm, deg.to_radians()]),

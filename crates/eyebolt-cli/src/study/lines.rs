@@ -1,7 +1,7 @@
 //! Lines of JSON for machines.
 
 use anyhow::Result;
-use eyebolt::calibrate::Deviation;
+use eyebolt::calibrate::{Deviation, StillPart};
 use eyebolt::study::{Answered, Ending, LEVELS, Refusal, SessionResult, Study, Summary, Tally};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -59,6 +59,10 @@ fn tell(answered: &Answered, line: &mut Value) -> Result<()> {
     line["expected"] = serde_json::to_value(answered.expected.map(off))?;
     if let Some(after) = answered.error_after_bump {
         line["error_after_bump"] = serde_json::to_value(off(after))?;
+    }
+    if let Some(StillPart { shift_m, seen_through, nearer }) = answered.still_part {
+        line["base_shift_mm"] = serde_json::to_value(shift_m.map(|m| 1e3 * m).as_slice())?;
+        line["base_shift_evidence"] = json!({ "seen_through": seen_through, "nearer": nearer });
     }
     if let Some(quantiles) = answered.quantiles {
         let named = LEVELS.iter().zip(quantiles);

@@ -10,7 +10,8 @@ use std::path::Path;
 
 /// Arguments of every command that writes, to `desk`.
 fn commands<'a>(recording: &'a Path, saved: &'a Path, output: &'a Path) -> [Vec<&'a str>; 3] {
-    let export = ["export", text(saved), "--as", "tf2", "--output", text(output)];
+    let format = if output.extension().is_some() { "mcap" } else { "tf2" };
+    let export = ["export", text(saved), "--as", format, "--output", text(output)];
     let convert = ["convert", text(recording), text(output)];
     [calibration(recording, output, &[]), convert.to_vec(), export.to_vec()]
 }

@@ -23,9 +23,12 @@ fn the_line_to_record_with_is_todays() {
     assert_eq!((ended.code, ended.out.as_str()), (Some(0), expected));
     let own = eyebolt(&["record-command", "--depth-topic", "/eye/depth", "--humble"]).out;
     assert!(own.contains(" my_bag /eye/depth /eye/camera_info ") && !own.contains("--topics"));
-    // README and the program say the same.
-    let readme = include_str!("../../../../README.md").replace("\\\n        ", "");
-    assert!(readme.contains(expected.trim_end()));
+    // What is written and the program say the same.
+    let written =
+        [include_str!("../../../../README.md"), include_str!("../../../../docs/recordings.md")];
+    for page in written {
+        assert!(page.replace("\\\n        ", "").contains(expected.trim_end()));
+    }
 }
 
 #[test]
@@ -97,4 +100,26 @@ fn names_of_files_say_what_is_in_them() {
     let ended = eyebolt(&["simulate", "-o", text(&bag)]);
     ended.assert_error(1, &["session.bag", "--output", "ends in .mcap"]);
     assert!(desk.names().is_empty());
+}
+
+#[test]
+fn names_of_exports_say_what_is_in_them() {
+    let json = GOOD.desk.file("calibration.json");
+    let desk = Desk::new();
+    for (format, name, words) in [
+        ("csv", "camera.yaml", "Give .csv for it, or give --as easy-handeye2 or --as easy-handeye"),
+        ("easy-handeye", "camera.json", "end in .yaml. Give .yaml for it"),
+        ("ros2-launch", "camera.launch", "Give .py for it, or give --as moveit-ros1"),
+        ("npy", "camera.csv", "Give .npy for it, or give --as csv"),
+    ] {
+        let file = desk.file(name);
+        let ended = eyebolt(&["export", text(&json), "--as", format, "-o", text(&file)]);
+        ended.assert_error(1, &[name, "--output", words]);
+    }
+    assert!(desk.names().is_empty());
+    for (format, name) in [("csv", "camera"), ("easy-handeye", "camera.YML"), ("tf2", "tf.sh")] {
+        let file = desk.file(name);
+        let ended = eyebolt(&["export", text(&json), "--as", format, "-o", text(&file)]);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+    }
 }

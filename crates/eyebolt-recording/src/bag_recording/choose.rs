@@ -2,6 +2,7 @@
 
 mod candidates;
 mod depth;
+mod joints;
 mod kinds;
 mod recommended;
 
@@ -73,8 +74,17 @@ impl Chosen {
         };
         let background = depth::background(&candidates, options, known_background)?;
         let (range, depth_choice) = depth::range(&candidates, options, background)?;
+        let description = wanted(Input::DESCRIPTION_TOPIC, DESCRIPTION, &options.description_topic);
         let joints = wanted(Input::JOINT_TOPIC, JOINTS, &options.joint_topic);
-        let joints = candidates.needed(joints, &is_joints)?;
+        let joints = match candidates.needed(joints, &is_joints) {
+            // Grippers and other arms tell theirs elsewhere.
+            Err(several) if options.joint_topic.is_none() => {
+                let known = candidates.one(description, &is_description).ok().flatten();
+                let of_robot = joints::of_robot(options, &scan.topics, known);
+                joints::telling_most(&scan.topics, &of_robot).ok_or(several)?
+            }
+            found => found?,
+        };
         let depth = scan.topic(range);
         let camera_info = match options.camera_info {
             Some(_) => None,
@@ -109,7 +119,6 @@ impl Chosen {
                 .one(wanted(Input::MASK_TOPIC, MASKS, &None), &|t| is_mask(t) && beside(t))?,
             name => candidates.one(wanted(Input::MASK_TOPIC, PICTURES, name), &picture)?,
         };
-        let description = wanted(Input::DESCRIPTION_TOPIC, DESCRIPTION, &options.description_topic);
         let description = candidates.one(description, &is_description)?;
         let color_info = color.and_then(|number| other(scan.topic(number)));
         let named_color = color.filter(|_| options.color_topic.is_some() && color_info.is_none());

@@ -17,6 +17,9 @@ pub struct BagOptions {
     pub camera_info: Option<PathBuf>,
     /// Topic of the joint states.
     pub joint_topic: Option<String>,
+    /// Names of the robot's joints, where the robot is known: of several topics of joint states, the one
+    /// that tells most of them is the arm's. Otherwise those of the bag's own description.
+    pub robot_joints: Vec<String>,
     /// Topic of the robot's description.
     pub description_topic: Option<String>,
     /// Topic of colour pictures registered to the depth.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Sections with their keys.
 const KNOWN: [(&str, &[&str]); 4] = [
-    ("camera", &["info"]),
+    ("camera", &["info", "tf_static"]),
     (
         "frames",
         &["depth", "cloud", "depth_unit", "cloud_frame", "color", "mask", "joints", "joint_names"],

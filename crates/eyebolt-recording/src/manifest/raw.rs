@@ -17,6 +17,7 @@ pub(super) struct Raw {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawCamera {
     pub(super) info: Option<String>,
+    pub(super) tf_static: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -12,17 +12,18 @@ use crate::error::RecordingError;
 use crate::folder::MANIFEST;
 use crate::progress::Progress;
 use crate::recording::Recording;
+use crate::tf_file;
 use crate::truth;
 use description::{Found, camera_info, manifest};
 use left_out::LeftOut;
-use names::{CAMERA_INFO, URDF};
+use names::{CAMERA_INFO, TF_STATIC, URDF};
 use output::Output;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Writes the frames of `recording` that take part to the folder `folder`, which must exist:
 /// depth as PNG (whole millimetres) or NPY, clouds as NPY, the positions of the joints as one CSV,
-/// the backgrounds, and the truth of a simulated recording as it is.
+/// the backgrounds, the static transforms, and the truth of a simulated recording as it is.
 ///
 /// # Errors
 ///
@@ -41,6 +42,10 @@ pub fn write_folder(
     if let Some(camera) = recording.camera() {
         let text = camera_info(camera, recording.camera_frame_id());
         output.file(CAMERA_INFO, text.as_bytes())?;
+    }
+    if !recording.static_transforms().is_empty() {
+        let text = tf_file::text(recording.static_transforms());
+        output.file(TF_STATIC, text.as_bytes())?;
     }
     if let Some(urdf) = &robot.urdf {
         output.file(URDF, urdf.as_bytes())?;

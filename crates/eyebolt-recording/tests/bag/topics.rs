@@ -1,7 +1,7 @@
 //! Which topics of a bag are the recording.
 
 use super::sample::{
-    Bag, CAMERA_INFO, CLOUD, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, JOINT_STATE, PIXELS, SIZE,
+    Bag, CAMERA_INFO, CLOUD, DEPTH_TOPIC, FRAME, IMAGE, INFO_TOPIC, JOINT_STATE, MS, PIXELS, SIZE,
     START_NS, STRING,
 };
 use super::writer;
@@ -127,4 +127,48 @@ fn both_parents_of_a_frame_are_told() {
     bag.add("/not_tf_static", "tf2_msgs/TFMessage", START_NS, data);
     let parents: Vec<_> = bag.open().static_transforms().into_iter().map(|t| t.parent).collect();
     assert_eq!(parents, ["camera_link", "world"]);
+}
+
+/// A description with these joints that turn.
+fn describe(bag: &mut Bag, joints: &[&str]) {
+    let links: String = (0..=joints.len()).map(|i| format!("<link name=\"l{i}\"/>")).collect();
+    let turning = joints.iter().enumerate().map(|(i, name)| {
+        format!(
+            "<joint name=\"{name}\" type=\"continuous\"><parent link=\"l{i}\"/><child link=\"l{}\"/></joint>",
+            i + 1
+        )
+    });
+    let urdf = format!("<robot name=\"arm\">{links}{}</robot>", turning.collect::<String>());
+    bag.add("/robot_description", STRING, START_NS, writer::text(&urdf));
+}
+
+#[test]
+fn of_several_topics_of_joints_the_one_with_the_robots_own_is_taken() {
+    let mut bag = Bag::sample();
+    for i in 0..600 {
+        let stamp = START_NS + 10 * MS * i;
+        let told = |name: &str| writer::joint_state(stamp, &[(name, 0.1)]);
+        bag.add("/gripper", JOINT_STATE, stamp, told("finger"));
+        bag.add("/left/joint_states", JOINT_STATE, stamp, told("l_shoulder"));
+    }
+    let undescribed = bag.clone();
+    describe(&mut bag, &["shoulder", "elbow", "finger"]);
+    assert_eq!(bag.open().role("joints").as_deref(), Some("/joint_states"));
+    // The robot that the caller names is the one that counts.
+    let with = |joints: &[&str], bag: &Bag| {
+        let mut bag = bag.clone();
+        bag.options.robot_joints = joints.iter().map(|name| (*name).to_owned()).collect();
+        bag
+    };
+    let joints_of = |bag: Bag| bag.open().role("joints");
+    assert_eq!(joints_of(with(&["elbow"], &undescribed)).as_deref(), Some("/joint_states"));
+    assert_eq!(joints_of(with(&["l_shoulder"], &bag)).as_deref(), Some("/left/joint_states"));
+    // Where two tell as many, or none tells any, a person decides.
+    let several = ["`joint_topic`", "several topics", "/gripper, /joint_states"];
+    undescribed.assert_says(&several);
+    with(&["stranger"], &bag).assert_says(&several);
+    for message in bag.clone().on("/joint_states") {
+        bag.add("/joint_states_desired", JOINT_STATE, message.log_time_ns, message.data.clone());
+    }
+    bag.assert_says(&["`joint_topic`", "several topics", "/joint_states, /joint_states_desired"]);
 }

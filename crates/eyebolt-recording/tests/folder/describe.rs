@@ -12,11 +12,56 @@ fn nobody(_: &Path) -> Vec<String> {
     Vec::new()
 }
 
+/// As `ros2 topic echo` prints it.
+const TF_STATIC: &str = "transforms:
+- header:
+    stamp:
+      sec: 0
+      nanosec: 0
+    frame_id: camera_link
+  child_frame_id: depth_optical
+  transform:
+    translation:
+      x: 0.1
+      y: 0.0
+      z: 0.0
+    rotation:
+      x: -0.5
+      y: 0.5
+      z: -0.5
+      w: 0.5
+---
+";
+
+#[test]
+fn a_file_of_static_transforms_is_checked() {
+    let sample = Sample::depth();
+    let described = std::fs::read_to_string(sample.file("recording.toml")).unwrap();
+    let info = "info = \"camera_info.yaml\"";
+    let named = format!("{info}\ntf_static = \"tf.yaml\"");
+    sample.write("recording.toml", described.replace(info, &named).as_bytes());
+    let open = || Folder::open(sample.path());
+    assert_says(open(), &["tf.yaml", "cannot read camera.tf_static"]);
+    for (text, words) in [
+        ("", "there are none"),
+        ("transforms: []", "there are none"),
+        ("hello: 1", "transforms: the field is missing"),
+        (&TF_STATIC.replace("child_frame_id", "child"), "transforms[0].child_frame_id"),
+        (&TF_STATIC.replace("x: 0.1", "x: far"), "transforms: "),
+    ] {
+        sample.write("tf.yaml", text.as_bytes());
+        assert_says(open(), &["tf.yaml", words, "ros2 topic echo"]);
+    }
+    sample.write("tf.yaml", TF_STATIC.as_bytes());
+    assert_eq!(open().unwrap().static_transforms().len(), 1);
+}
+
 #[test]
 fn what_lies_there_is_described_and_read() {
     let sample = Sample::depth();
     sample.remove("recording.toml");
     sample.write("arm.urdf", b"<robot name=\"arm\"/>");
+    sample.write("tf_static.yaml", TF_STATIC.as_bytes());
     let described = describe_folder(sample.path(), &joints).unwrap();
     sample.write("recording.toml", described.toml.as_bytes());
     let folder = Folder::open(sample.path()).unwrap();
@@ -25,6 +70,8 @@ fn what_lies_there_is_described_and_read() {
     assert!(frame.mask.is_some() && folder.read_color(0).unwrap().is_some());
     assert_eq!(frame.joints.get("elbow"), Some(-1.5));
     assert_eq!(folder.robot().urdf.as_deref(), Some(sample.file("arm.urdf").as_path()));
+    let around = folder.static_transforms();
+    assert_eq!((around.len(), around[0].child.as_str()), (1, "depth_optical"));
     // Guesses are said to be such.
     let checks = described.to_check.join("\n");
     for words in ["depth_unit is a guess: \"m\"", "1.25 m", "joint_names"] {

@@ -60,6 +60,9 @@ proptest! {
         sample.describe("\"m\"", "\"mm\"");
         sample.write("depth_2.npy", &npy_u16(&[HEIGHT, WIDTH], &depth_mm));
         let from_npy = sample.frame().unwrap();
+        // Whoever doubts the unit may try another: they are integers, as in a PNG.
+        let unit_m = || Folder::open(sample.path()).unwrap().integer_unit_m();
+        prop_assert_eq!(unit_m(), Some(1e-3));
         // The largest number is what drivers write where they saw nothing.
         let seen = |v: &u16| if *v == u16::MAX { 0.0 } else { f32::from(*v) * 1e-3 };
         let expected: Vec<f32> = depth_mm.iter().map(seen).collect();

@@ -2,7 +2,7 @@
 
 use crate::sample::{
     Backgrounds, Desk, MS, PIXELS, START_NS, assert_says, backgrounds, frames, image, joints,
-    millimetres, open, truth, write,
+    millimetres, open, transforms, truth, write,
 };
 use eyebolt_geometry::DepthImage;
 use eyebolt_recording::{BagOptions, Recording, read_truth};
@@ -54,6 +54,7 @@ fn assert_whole(recording: &Recording, in_millimetres: bool) {
     assert_eq!(bits(&backgrounds(recording)), bits(&[100, 101].map(millimetres)));
     assert_eq!(recording.in_millimetres(), in_millimetres);
     assert_eq!(recording.camera_frame_id(), Some("eye_optical"));
+    assert_eq!(recording.static_transforms(), transforms());
     assert_eq!(recording.robot().base.as_deref(), Some("base_link"));
     assert_eq!(recording.read_joints(4).unwrap(), joints(0.75));
     assert_says(recording.read_background(2), &["background index 2", "2 backgrounds"]);

@@ -2,8 +2,8 @@
 
 use eyebolt_geometry::{Base, Camera, DepthImage, Distortion, PinholeCamera, Transform};
 use eyebolt_recording::{
-    BagOptions, CameraMoved, Range, Recording, RecordingInfo, RecordingWriter, Truth, WriteError,
-    WriteRobot, write_folder, write_mcap,
+    BagOptions, CameraMoved, Range, Recording, RecordingInfo, RecordingWriter, StaticTransform,
+    Truth, WriteError, WriteRobot, write_folder, write_mcap,
 };
 use eyebolt_robot::JointPositions;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -72,6 +72,18 @@ pub fn truth() -> Truth {
     }
 }
 
+/// What is fixed to the camera.
+pub fn transforms() -> Vec<StaticTransform> {
+    [("eye_link", "eye_optical", 0.1), ("eye \"body\"", "eye_link", -1.0 / 3.0)]
+        .map(|(parent, child, x)| StaticTransform {
+            parent: parent.to_owned(),
+            child: child.to_owned(),
+            translation_m: [x, 0.0, 1e-9],
+            rotation_xyzw: [0.5, -0.5, 0.5, -0.5],
+        })
+        .to_vec()
+}
+
 /// When backgrounds are written.
 #[derive(Clone, Copy)]
 pub enum Backgrounds {
@@ -127,7 +139,9 @@ impl Desk {
         let path = self.file(name);
         let camera = camera(SIZE);
         let output = BufWriter::new(File::create(&path).unwrap());
-        let mut writer = RecordingWriter::new(output, &info(&camera, in_millimetres)).unwrap();
+        let around = transforms();
+        let info = RecordingInfo { static_transforms: &around, ..info(&camera, in_millimetres) };
+        let mut writer = RecordingWriter::new(output, &info).unwrap();
         fill(&mut writer).unwrap();
         writer.finish().unwrap();
         path

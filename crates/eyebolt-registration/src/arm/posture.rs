@@ -96,7 +96,7 @@ impl Posture {
     }
 
     /// The axes of the joints, in the order of [`ArmModel::joints`]; none unless they were given.
-    pub(crate) fn axes(&self) -> &[JointAxis] {
+    pub fn axes(&self) -> &[JointAxis] {
         &self.axes
     }
 

@@ -2,6 +2,7 @@
 
 use super::error::ErrorEstimate;
 use super::reason::Verdict;
+use super::still_part::StillPart;
 use super::unknown_parts::UnknownPart;
 use crate::refine::{Agreement, CameraMoved, ConfigurationOutcome, total};
 use eyebolt_geometry::{Base, Camera, Transform};
@@ -20,6 +21,8 @@ pub struct Calibration {
     pub camera_moved: Vec<CameraMoved>,
     /// Parts that move with a link and are not in the description.
     pub unknown_parts: Vec<UnknownPart>,
+    /// Where the links that never move fit best, if they are seen.
+    pub still_part: Option<StillPart>,
     /// How far off the answer is expected to be.
     pub error: Option<ErrorEstimate>,
     /// Whether to use it.
@@ -37,6 +40,7 @@ impl Calibration {
             configurations,
             camera_moved,
             unknown_parts,
+            still_part: None,
             error: None,
             verdict,
         }

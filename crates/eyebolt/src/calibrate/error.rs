@@ -11,6 +11,7 @@
 use super::deviation::Deviation;
 use super::jackknife::{Jackknife, jackknife, without_parts};
 use super::one_kind::{one_kind_each, spread};
+use super::still_part::StillPart;
 use crate::refine::Workspace;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::{Doubt, MOST_JOINTS, RefineView, Refinement, Start};
@@ -25,7 +26,7 @@ pub enum ErrorSource {
     LeftOut,
     /// What single kinds of evidence would say alone.
     Disagreement,
-    /// What lengths of links and intrinsics may be off by that were taken at their word.
+    /// What lengths of links, the base and intrinsics may be off by that were taken at their word.
     Description,
     /// Allowed for what other kinds of evidence would have told, where there is only one.
     OneKind,
@@ -93,6 +94,7 @@ pub(crate) fn estimate(
     refinement: &Refinement,
     seen: &[RefineView<'_>],
     how: Jackknife,
+    still: Option<&StillPart>,
 ) -> ErrorEstimate {
     let pose = refinement.camera_from_base;
     let workspace_in_base = workspace(work);
@@ -104,7 +106,9 @@ pub(crate) fn estimate(
     }
     let ratio = one_kind.as_ref().map(|alone| birge(refinement, alone));
     let doubts = by_doubts(&refinement.doubts, ratio.unwrap_or(1.0));
-    sources.push((ErrorSource::Description, doubts));
+    let base = still.map(|still| by_base(still, &pose, ratio.unwrap_or(1.0)));
+    let base = base.unwrap_or_else(Matrix6::zeros);
+    sources.push((ErrorSource::Description, doubts + base));
     sources.push(match ratio {
         Some(ratio) => (ErrorSource::Disagreement, by_disagreement(refinement, ratio)),
         None => {
@@ -220,6 +224,13 @@ fn by_doubts(doubts: &[Doubt], birge: f64) -> Matrix6<f64> {
         doubt.shift * doubt.shift.transpose() * (odds / (1.0 + odds)).min(1.0)
     });
     each.sum()
+}
+
+/// Covariance from a base that is not where the description has it: the answer is of the base.
+fn by_base(still: &StillPart, pose: &Transform<Camera, Base>, birge: f64) -> Matrix6<f64> {
+    let shift = pose.direction(&still.shift_m);
+    let shift = Vector6::new(shift.x, shift.y, shift.z, 0.0, 0.0, 0.0);
+    shift * shift.transpose() * still.probability(birge)
 }
 
 /// Standard deviation of an answer from one kind of evidence alone, along each axis, m and rad: what

@@ -98,6 +98,17 @@ pub enum Reason {
         /// Allowed, either way, degrees.
         limit_deg: f64,
     },
+    /// What never moves is not where the description has it.
+    #[error(
+        "what never moves of the arm fits best {shift_mm:.0} mm from where the description has it (at most \
+         {limit_mm:.0} are trusted): check that the robot description is of this variant of the arm"
+    )]
+    BaseElsewhere {
+        /// How far, millimetres.
+        shift_mm: f64,
+        /// Allowed, millimetres.
+        limit_mm: f64,
+    },
     /// The arm fits better with two joints exchanged.
     #[error(
         "the arm fits better with the positions of joints {:?} and {:?} exchanged: check that joint names \

@@ -3,6 +3,7 @@
 use super::error::ErrorEstimate;
 use super::limits::Limits;
 use super::reason::{Reason, Verdict};
+use super::still_part::StillPart;
 use crate::joint_limits::OutsideLimits;
 use crate::refine::{Agreement, ConfigurationOutcome, misplaced, too_many_misplaced, total};
 use eyebolt_registration::{ArmJoint, Refinement, StopReason};
@@ -32,6 +33,8 @@ pub(crate) struct Findings<'a> {
     pub outcomes: &'a [ConfigurationOutcome],
     pub outside_limits: &'a [OutsideLimits],
     pub error: &'a ErrorEstimate,
+    /// Where the links that never move fit best, if they are seen.
+    pub still_part: Option<&'a StillPart>,
     /// Two joints that fit better with their names exchanged.
     pub exchanged: Option<[String; 2]>,
     /// Whether another pose explains nearly as much.
@@ -61,6 +64,7 @@ pub(crate) fn judge(findings: &Findings<'_>, limits: &Limits) -> Verdict {
     }
     reasons.extend(findings.exchanged.clone().map(|joints| Reason::JointsExchanged { joints }));
     reasons.extend(joint_off(findings));
+    reasons.extend(base_elsewhere(findings, limits));
     reasons.extend(contradicted(findings));
     // How exact an answer is matters only if it is one: advice on accuracy would mislead.
     if reasons.iter().all(is_few_configurations) {
@@ -111,6 +115,14 @@ fn joint_off(findings: &Findings<'_>) -> Option<Reason> {
         offset_deg: rad.to_degrees(),
         limit_deg: JOINT_OFF_RAD.to_degrees(),
     })
+}
+
+/// That what never moves is farther from where the description has it than answers may be off.
+fn base_elsewhere(findings: &Findings<'_>, limits: &Limits) -> Option<Reason> {
+    let (shift_m, limit_m) =
+        (findings.still_part?.sure_shift_m().norm(), limits.expected.translation_m);
+    let (shift_mm, limit_mm) = (1e3 * shift_m, 1e3 * limit_m);
+    (shift_m > limit_m).then_some(Reason::BaseElsewhere { shift_mm, limit_mm })
 }
 
 fn stopped(refinement: &Refinement) -> Option<Reason> {

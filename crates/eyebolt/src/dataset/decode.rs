@@ -30,15 +30,20 @@ impl DatasetFrame {
         let camera = file.camera(&depth)?;
         let keypoint_count = description.keypoints.len();
         let names = &description.robot.joints;
-        let positions = file.numbers("joint_positions", &[names.len()])?;
-        let points = file.numbers("keypoints_in_camera_m", &[keypoint_count, 3])?;
+        let positions = file.numbers_if_known("joint_positions", &[names.len()])?;
+        let points = file.numbers_if_known("keypoints_in_camera_m", &[keypoint_count, 3])?;
         let (points, _) = points.as_chunks::<3>();
         Ok(Self {
             labels: file.labels(&image)?,
             keypoints: file.keypoints(&image, keypoint_count)?,
             camera_from_end_effector: file.pose()?,
             keypoints_in_camera: points.iter().map(|point| Point3::from(*point)).collect(),
-            joints: names.iter().cloned().zip(positions).collect::<JointPositions>(),
+            joints: names
+                .iter()
+                .cloned()
+                .zip(positions)
+                .filter(|(_, position)| !position.is_nan())
+                .collect::<JointPositions>(),
             depth,
             camera,
         })
@@ -69,6 +74,15 @@ impl File<'_> {
             return Err(self.invalid(field, problem));
         }
         Ok(values)
+    }
+
+    /// Numbers, NaN where they are not known.
+    fn numbers_if_known(&self, field: &str, shape: &[usize]) -> Result<Vec<f64>, DatasetError> {
+        let numbers: Vec<f64> = self.array(field, Dtype::Float64, shape)?;
+        match numbers.iter().find(|number| number.is_infinite()) {
+            Some(number) => Err(self.invalid(field, format!("{number} in it is no number"))),
+            None => Ok(numbers),
+        }
     }
 
     fn numbers(&self, field: &str, shape: &[usize]) -> Result<Vec<f64>, DatasetError> {

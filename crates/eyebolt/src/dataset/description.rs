@@ -190,8 +190,8 @@ const HEAD: &str = "\
 # camera_matrix             float64 3 x 3      pixels; (0, 0) is the middle of the first pixel
 # distortion                float64 8          k1 k2 p1 p2 k3 k4 k5 k6, as in OpenCV
 # camera_from_end_effector  float64 4 x 4      metres
-# keypoints_in_camera_m     float64 K x 3      where all keypoints are, seen or not
-# joint_positions           float64 J          as recorded, in the order of robot.joints; radians, metres
+# keypoints_in_camera_m     float64 K x 3      where all keypoints are, seen or not; NaN on a finger that was not recorded
+# joint_positions           float64 J          as recorded, in the order of robot.joints; radians, metres, NaN if not recorded
 #
 # a_from_b maps coordinates in b to coordinates in a. The camera frame is optical: x right, y down,
 # z forward. Depth, camera and poses have what the calibration found to be off corrected.

@@ -9,7 +9,7 @@ use super::store::Store;
 use crate::progress::{Cancelled, Progress};
 use crate::record::RecordError;
 use eyebolt_recording::FrameSource;
-use eyebolt_robot::{Arm, JointPositions};
+use eyebolt_robot::JointPositions;
 use rayon::prelude::*;
 use std::error::Error;
 
@@ -56,7 +56,7 @@ const BATCH: usize = 16;
 pub fn fill(
     store: &mut Store,
     recording: &RecordingEntry,
-    (source, arm): (&dyn FrameSource, &Arm),
+    source: &dyn FrameSource,
     run: &LabelRun<'_>,
     look: &Look<'_>,
     progress: &dyn Progress,
@@ -72,7 +72,7 @@ pub fn fill(
         let key = FrameKey { recording: recording.id.clone(), number: *number };
         let labelled = match run.frame(*number)? {
             Ok(Labelled { frame, joints }) => {
-                let joints = all_joints(&joints, &store.description().robot.joints, arm);
+                let joints = told(&joints, &store.description().robot.joints);
                 DatasetFrame::new(frame, run.camera(), joints)
             }
             Err(left_out) => {
@@ -97,8 +97,7 @@ pub fn fill(
     Ok(filled)
 }
 
-/// Positions of the joints called `names`: those that were not recorded where kinematics put them.
-fn all_joints(recorded: &JointPositions, names: &[String], arm: &Arm) -> JointPositions {
-    let position = |name: &String| recorded.get(name).unwrap_or_else(|| arm.default_position(name));
-    names.iter().map(|name| (name.clone(), position(name))).collect()
+/// Positions of the joints called `names`, of those that were recorded.
+fn told(recorded: &JointPositions, names: &[String]) -> JointPositions {
+    names.iter().filter_map(|name| Some((name.clone(), recorded.get(name)?))).collect()
 }

@@ -22,9 +22,11 @@ pub struct DatasetFrame {
     pub keypoints: Vec<u8>,
     /// Pose of the end-effector link.
     pub camera_from_end_effector: Transform<Camera, EndEffector>,
-    /// Where all keypoints are, seen or not, in the order of their classes; camera frame, metres.
+    /// Where all keypoints are, seen or not, in the order of their classes; camera frame, metres. Not
+    /// numbers on a finger whose joint was not recorded.
     pub keypoints_in_camera: Vec<Point3<f64>>,
-    /// Positions of the arm's joints and of the end-effector's own, as recorded; radians, metres.
+    /// Positions of the arm's joints and of the end-effector's own, as far as they were recorded; radians,
+    /// metres.
     pub joints: JointPositions,
 }
 
@@ -63,7 +65,7 @@ impl DatasetFrame {
         let pose = self.camera_from_end_effector.matrix().transpose();
         let keypoints = self.keypoints_in_camera.iter().flat_map(|p| [p.x, p.y, p.z]);
         let names = &description.robot.joints;
-        let joints = names.iter().map(|name| self.joints.get(name).unwrap_or(0.0));
+        let joints = names.iter().map(|name| self.joints.get(name).unwrap_or(f64::NAN));
         npz(&[
             Array::float32("depth_m", &image, self.depth.depth_m().iter().copied()),
             Array::uint8("label", &image, self.labels.iter().map(|label| code(*label))),

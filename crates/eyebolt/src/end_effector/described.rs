@@ -118,6 +118,19 @@ impl EndEffector {
         keypoints.map(|(keypoint, pose)| pose.point(&keypoint.point_in_link)).collect()
     }
 
+    /// As [`Self::keypoints`]; `None` on a finger whose joint has no position in `joints`: nobody knows
+    /// where that is.
+    pub fn known_keypoints(&self, joints: &JointPositions) -> Vec<Option<Point3<f64>>> {
+        let of_arm = self.arm.required_joints().into_iter().map(|name| (name.to_owned(), 0.0));
+        let told = joints.iter().filter(|(_, position)| position.abs() < MOST_POSITION);
+        let told = told.map(|(name, at)| (name.to_owned(), at));
+        let placed = self.arm.known_link_poses(&of_arm.chain(told).collect());
+        let placed = placed.map(|known| known.base_from_links).unwrap_or_default();
+        let is_placed = |link: usize| placed.get(link).is_some_and(Option::is_some);
+        let keypoints = self.keypoints.iter().zip(self.keypoints(joints));
+        keypoints.map(|(keypoint, at)| is_placed(keypoint.link).then_some(at)).collect()
+    }
+
     /// Which keypoint each looks like after each turn of [`Self::symmetry`], the identity first: by
     /// its shape alone, nobody can tell which of these is true.
     pub fn keypoint_permutations(&self) -> Vec<Vec<usize>> {

@@ -91,6 +91,21 @@ impl Format {
         }
     }
 
+    /// How names of its files end, the usual one first.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Tf2 | Self::Tf2Ros1 => &["sh", "txt", "bash"],
+            Self::Ros2Launch | Self::Moveit => &["py"],
+            Self::EasyHandeye2 => &["calib", "yaml", "yml"],
+            Self::EasyHandeye => &["yaml", "yml"],
+            Self::MoveitRos1 => &["launch", "xml"],
+            Self::Urdf => &["urdf", "xacro", "xml"],
+            Self::Csv => &["csv", "txt"],
+            Self::Npy => &["npy"],
+            Self::Mcap => &["mcap"],
+        }
+    }
+
     /// Whether it is for somebody who publishes it on tf, and not for people who compute with it.
     pub fn is_published(self) -> bool {
         !matches!(self, Self::Csv | Self::Npy)

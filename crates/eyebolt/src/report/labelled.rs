@@ -70,7 +70,9 @@ pub fn labelled(frame: &DatasetFrame, end_effector: &EndEffector) -> Picture {
         }
     }
     for (index, keypoint) in frame.keypoints_in_camera.iter().enumerate() {
-        let Some(at) = pixel(frame, keypoint) else { continue };
+        // On a finger that was not recorded it is nowhere.
+        let known = keypoint.iter().all(|x| x.is_finite());
+        let Some(at) = pixel(frame, keypoint).filter(|_| known) else { continue };
         for step in -CROSS_PX..=CROSS_PX {
             dot(&mut picture, [at.x as i64 + step, at.y as i64], keypoint_color(index));
             dot(&mut picture, [at.x as i64, at.y as i64 + step], keypoint_color(index));

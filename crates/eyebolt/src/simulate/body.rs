@@ -12,6 +12,7 @@ use eyebolt_registration::{ArmModel, LinkCache, Posture};
 use eyebolt_render::{Random, SceneMesh};
 use eyebolt_robot::{Arm, JointPositions, Prefer, TriangleMesh, link_mesh};
 use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
 
 /// An arm with the shapes of its links.
 pub(super) struct ArmBody {
@@ -23,8 +24,10 @@ pub(super) struct ArmBody {
     meshes: Vec<TriangleMesh>,
     /// Of the model's links, those of the end-effector.
     pub(super) is_end_effector: Vec<bool>,
-    /// Pairs of links that may touch: neighbours, and those that always do.
-    may_touch: Vec<(usize, usize)>,
+    /// Pairs of links that may not touch: not neighbours, and none that always do.
+    apart: Vec<(usize, usize)>,
+    /// How postures are drawn.
+    draws: Vec<Draw>,
     /// Of the model's links, those that the joints of the chain and of the hand move. The others (what
     /// the arm stands on, wheels, a head, a second arm) stay where they are.
     moved: Vec<bool>,
@@ -32,6 +35,14 @@ pub(super) struct ArmBody {
     table_m: f64,
     /// Around each of the model's links: centre in its frame, radius, metres.
     spheres: Vec<(Point3<f32>, f32)>,
+}
+
+/// How the position of a joint is drawn.
+struct Draw {
+    joint: String,
+    /// Between which positions, if it is drawn at all; else it stays where it is by default.
+    between: Option<[f64; 2]>,
+    default: f64,
 }
 
 /// Nothing comes nearer to the arm than this, metres.
@@ -56,14 +67,15 @@ impl ArmBody {
         let meshes: Vec<TriangleMesh> = meshes.collect::<Result<_, record::RecordError>>()?;
         let end_effector = arm.end_effector_links();
         let drawn = drawn_joints(&arm);
-        let moved = links.iter().map(|link| is_moved(&arm, &drawn, *link));
+        let moved: Vec<bool> = links.iter().map(|link| is_moved(&arm, &drawn, *link)).collect();
         let mut body = Self {
             is_end_effector: links.iter().map(|link| end_effector.contains(link)).collect(),
-            moved: moved.collect(),
+            moved,
             table_m: -TABLE_BELOW_M,
             spheres: meshes.iter().map(sphere).collect(),
+            draws: draws(&arm, &drawn),
             arm,
-            may_touch: Vec::new(),
+            apart: Vec::new(),
             links,
             model,
             meshes,
@@ -71,7 +83,7 @@ impl ArmBody {
         let random = Random::new(0);
         let drawn = (0..TRIALS).map(|trial| body.any_joints(&mut random.at(trial)));
         let trials: Vec<Posture> = drawn.filter_map(|joints| body.posture(&joints)).collect();
-        body.may_touch = body.mostly_touching(&trials);
+        body.apart = body.seldom_touching(&trials);
         body.table_m = body.table_under(&trials);
         Ok(body)
     }
@@ -125,18 +137,9 @@ impl ArmBody {
     /// Joint positions anywhere within their limits, fingers included; joints of other limbs stay where
     /// they are by default.
     pub(super) fn any_joints(&self, random: &mut Random) -> JointPositions {
-        let robot = self.arm.robot();
-        let names = [self.arm.required_joints(), self.arm.other_joints()].concat();
-        let free = drawn_joints(&self.arm);
-        let drawn = names.into_iter().map(|name| {
-            if !free.contains(&name) {
-                return (name.to_owned(), self.arm.default_position(name));
-            }
-            let limits = robot.joint_index(name).and_then(|index| robot.joints[index].limits);
-            let (low, high) = limits.map_or((-3.0, 3.0), |limits| (limits.lower, limits.upper));
-            // Clear of the stops, where arms refuse to go. Limits that nobody filled in leave no room.
-            let clear = 0.03 * (high - low);
-            (name.to_owned(), random.between(low + clear, high - clear))
+        let drawn = self.draws.iter().map(|Draw { joint, between, default }| {
+            let at = between.map_or(*default, |[low, high]| random.between(low, high));
+            (joint.clone(), at)
         });
         drawn.collect()
     }
@@ -147,7 +150,12 @@ impl ArmBody {
         let camera = camera_in_base.cast();
         posture.nearest_within(&self.model, &camera, CAMERA_CLEARANCE_M, 0).is_some()
             || self.sinks(posture)
-            || self.pairs().any(|pair| !self.may_touch.contains(&pair) && self.touch(posture, pair))
+            || self.touches_itself(posture)
+    }
+
+    fn touches_itself(&self, posture: &Posture) -> bool {
+        let spheres = self.spheres_of(posture);
+        self.apart.iter().any(|pair| self.touch(posture, &spheres, *pair))
     }
 
     /// Whether `solid` is clear of the arm in `posture`.
@@ -191,8 +199,13 @@ impl ArmBody {
         all.filter(|(a, b)| self.moved[*a] || self.moved[*b])
     }
 
-    fn touch(&self, posture: &Posture, (a, b): (usize, usize)) -> bool {
-        if self.are_apart(posture, a, b) {
+    fn touch(
+        &self,
+        posture: &Posture,
+        spheres: &[(Point3<f32>, f32)],
+        (a, b): (usize, usize),
+    ) -> bool {
+        if are_apart(spheres[a], spheres[b]) {
             return false;
         }
         let pose = |link: usize| &posture.base_from_link()[link];
@@ -208,28 +221,34 @@ impl ArmBody {
         near(a, b, in_b * *pose(a)) || near(b, a, in_a * *pose(b))
     }
 
-    /// Whether the spheres around two links are so far apart that nothing else needs to be looked at:
-    /// nearly all pairs are.
-    fn are_apart(&self, posture: &Posture, a: usize, b: usize) -> bool {
-        let around = |link: usize| {
-            let (centre, radius) = self.spheres[link];
-            (posture.base_from_link()[link].isometry().cast::<f32>() * centre, radius)
-        };
-        let ((a, radius_a), (b, radius_b)) = (around(a), around(b));
-        (a - b).norm() > radius_a + radius_b + 2.0 * CLEARANCE_M
+    /// The sphere around link `link` of the model: centre in the link's frame, radius, metres.
+    pub(super) fn sphere(&self, link: usize) -> (Point3<f32>, f32) {
+        self.spheres[link]
     }
 
-    fn mostly_touching(&self, postures: &[Posture]) -> Vec<(usize, usize)> {
+    /// The spheres around the links where `posture` has them.
+    fn spheres_of(&self, posture: &Posture) -> Vec<(Point3<f32>, f32)> {
+        let placed = self.spheres.iter().zip(posture.base_from_link());
+        placed
+            .map(|((centre, radius), pose)| (pose.isometry().cast::<f32>() * centre, *radius))
+            .collect()
+    }
+
+    /// Pairs of links that are no neighbours and do not mostly touch in `postures`.
+    fn seldom_touching(&self, postures: &[Posture]) -> Vec<(usize, usize)> {
         let neighbours = |(a, b): (usize, usize)| {
             let robot = self.arm.robot();
             let parent = |link: usize| robot.links[self.links[link]].parent.map(|(above, _)| above);
             parent(a) == Some(self.links[b]) || parent(b) == Some(self.links[a])
         };
+        let spheres: Vec<_> = postures.iter().map(|posture| self.spheres_of(posture)).collect();
         let mostly = |pair: (usize, usize)| {
-            let touching = postures.iter().filter(|posture| self.touch(posture, pair)).count();
-            touching as f64 >= MOSTLY * postures.len() as f64
+            let placed = postures.iter().zip(&spheres);
+            let touching = placed.filter(|(posture, spheres)| self.touch(posture, spheres, pair));
+            touching.count() as f64 >= MOSTLY * postures.len() as f64
         };
-        self.pairs().filter(|pair| neighbours(*pair) || mostly(*pair)).collect()
+        let pairs: Vec<_> = self.pairs().collect();
+        pairs.into_par_iter().filter(|pair| !neighbours(*pair) && !mostly(*pair)).collect()
     }
 
     /// Where the end-effector is, for a quick look at whether the camera has it in view.
@@ -262,6 +281,30 @@ fn drawn_joints(arm: &Arm) -> Vec<&str> {
     };
     let others = arm.other_joints().into_iter().filter(of_hand);
     arm.required_joints().into_iter().chain(others).collect()
+}
+
+/// How the positions of the joints of `arm` are drawn, of which `free` are not where they are by default.
+fn draws(arm: &Arm, free: &[&str]) -> Vec<Draw> {
+    let robot = arm.robot();
+    let names = [arm.required_joints(), arm.other_joints()].concat();
+    let draw = |name: &str| {
+        let limits = robot.joint_index(name).and_then(|index| robot.joints[index].limits);
+        let (low, high) = limits.map_or((-3.0, 3.0), |limits| (limits.lower, limits.upper));
+        // Clear of the stops, where arms refuse to go. Limits that nobody filled in leave no room.
+        let clear = 0.03 * (high - low);
+        Draw {
+            joint: name.to_owned(),
+            between: free.contains(&name).then_some([low + clear, high - clear]),
+            default: arm.default_position(name),
+        }
+    };
+    names.into_iter().map(draw).collect()
+}
+
+/// Whether two spheres are so far apart that nothing else of their links needs to be looked at: nearly all
+/// are.
+fn are_apart((a, radius_a): (Point3<f32>, f32), (b, radius_b): (Point3<f32>, f32)) -> bool {
+    (a - b).norm() > radius_a + radius_b + 2.0 * CLEARANCE_M
 }
 
 /// Whether one of the joints called `drawn` moves `link` in the base.

@@ -10,6 +10,7 @@ use eyebolt_render::{PosedMesh, Random, Raster, RayScene};
 use eyebolt_robot::JointPositions;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// An arm at rest.
 #[derive(Clone, Debug)]
@@ -168,7 +169,11 @@ fn behind_room(
     eye: &Point3<f64>,
 ) -> bool {
     const HIDDEN: f64 = 0.1;
+    const MOST_POINTS: usize = 20_000;
     let points: Vec<Point3<f32>> = body.surface(posture).collect();
+    // Of a robot of very many links some points tell.
+    let points: Vec<Point3<f32>> =
+        points.iter().copied().step_by(points.len().div_ceil(MOST_POINTS)).collect();
     let hidden = onlooker.room.visible_from(*eye, &points).iter().filter(|sees| !**sees).count();
     hidden as f64 > HIDDEN * points.len() as f64
 }
@@ -201,12 +206,40 @@ fn shows_hand(
         return false;
     }
     alone.draw(onlooker.camera, &hand);
-    whole.draw(onlooker.camera, &meshes);
+    if alone.pixels().next().is_none() {
+        return false;
+    }
+    whole.draw(onlooker.camera, &before(body, &meshes, &hand));
     let seen = whole.pixels().filter(|at| whole.link(*at).is_some_and(is_hand)).count();
     let focal = onlooker.camera.fx() * onlooker.camera.fy();
     let area = alone.pixels().filter_map(|at| alone.depth_m(at)).map(|z| f64::from(z * z) / focal);
     seen as f64 >= IN_SIGHT * alone.pixels().count() as f64
         && area.sum::<f64>() >= TURNED * largest_side(&hand)
+}
+
+/// Those of `meshes` that may hide some of `hand`: a robot has limbs that are nowhere near it in the image.
+fn before<'m>(
+    body: &ArmBody,
+    meshes: &[PosedMesh<'m>],
+    hand: &[PosedMesh<'m>],
+) -> Vec<PosedMesh<'m>> {
+    // What is drawn is simpler than what the spheres are around.
+    const SIMPLER_M: f64 = 0.002;
+    let around = |posed: &PosedMesh<'_>| {
+        let (centre, radius_m) = body.sphere(usize::from(posed.link));
+        let centre = posed.camera_from_link.point(&centre.cast()).coords;
+        // As the camera sees it: a direction, and the sine of half of the angle that it fills.
+        (centre.normalize(), (f64::from(radius_m) + SIMPLER_M) / centre.norm())
+    };
+    let hands: Vec<_> = hand.iter().map(around).collect();
+    let overlaps = |posed: &&PosedMesh<'m>| {
+        let (along, sine) = around(posed);
+        hands.iter().any(|(hand, hand_sine)| {
+            let angle = |sine: f64| if sine < 1.0 { sine.asin() } else { PI };
+            along.angle(hand) <= angle(sine) + angle(*hand_sine)
+        })
+    };
+    meshes.iter().filter(overlaps).copied().collect()
 }
 
 fn in_image(onlooker: &Onlooker<'_>, point: &Point3<f64>) -> bool {

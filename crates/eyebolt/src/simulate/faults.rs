@@ -30,6 +30,9 @@ pub struct Faults {
     pub one_joint_offset: f64,
     /// How much longer one link is than the description says, metres. Which one the seed decides.
     pub link_length_m: f64,
+    /// How much lower the part that the first joint stands on is than the description says, metres: the
+    /// base of another variant, its column longer or shorter.
+    pub base_lower_m: f64,
     /// Whether only the last joints move, so that all configurations are alike.
     pub wrist_only: bool,
     /// Share of the arm that a box before it hides, in all configurations together.
@@ -53,6 +56,7 @@ impl Default for Faults {
             time_skew_s: 0.0,
             one_joint_offset: 0.0,
             link_length_m: 0.0,
+            base_lower_m: 0.0,
             wrist_only: false,
             occlusion: 0.0,
             bump: None,
@@ -78,6 +82,7 @@ impl Faults {
             ("time_skew_ms", 1e3 * self.time_skew_s, 0.0),
             ("one_joint_offset_deg", self.one_joint_offset.to_degrees(), 0.0),
             ("link_length_mm", 1e3 * self.link_length_m, 0.0),
+            ("base_lower_mm", 1e3 * self.base_lower_m, 0.0),
             ("wrist_only", f64::from(u8::from(self.wrist_only)), 0.0),
             ("occlusion", self.occlusion, 0.0),
             ("bump_mm", 1e3 * bump_m, 0.0),

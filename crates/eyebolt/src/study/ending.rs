@@ -1,6 +1,6 @@
 //! How a session ends.
 
-use crate::calibrate::{Deviation, Reason};
+use crate::calibrate::{Deviation, Reason, StillPart};
 
 /// How a session ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Answered {
     pub error_after_bump: Option<Deviation>,
     /// What the answer says it is off by.
     pub expected: Option<Deviation>,
+    /// Where the links that never move fit best, if they were seen.
+    pub still_part: Option<StillPart>,
     /// Quantiles of the error at [`super::LEVELS`] that the answer's covariance has.
     pub quantiles: Option<[Deviation; 3]>,
     /// Why it is refused; empty where it is trusted.

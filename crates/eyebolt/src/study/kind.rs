@@ -48,6 +48,8 @@ kinds! {
     Bump = "bump", true;
     /// A link is longer than described.
     LinkLength = "link-length", true;
+    /// The base is lower than described: another variant's.
+    LowerBase = "lower-base", true;
     /// The focal length is not what is stated.
     FocalScale = "focal-scale", true;
     /// The principal point is not what is stated.

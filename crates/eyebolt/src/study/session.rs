@@ -89,6 +89,7 @@ impl Session {
                 faults.bump = Some([random.between(0.005, 0.020), by_deg.to_radians()]);
             }
             Kind::LinkLength => faults.link_length_m = random.between(0.002, 0.012),
+            Kind::LowerBase => faults.base_lower_m = random.between(0.004, 0.060),
             Kind::FocalScale => faults.focal_scale = 1.0 + either_way(random, 0.01, 0.05),
             Kind::PrincipalPoint => {
                 let (px, way) = (random.between(2.0, 8.0), random.between(0.0, TAU));

@@ -48,6 +48,11 @@ impl Calibration {
     pub fn of(scenario: Scenario<'static>) -> Self {
         let plan = planned(scenario);
         let source = plan.in_memory().unwrap();
+        Self::of_source(plan, source)
+    }
+
+    /// Of `source`, which `plan` tells the truth of.
+    pub fn of_source(plan: Plan<'static>, source: InMemory) -> Self {
         let request =
             Request { cache: CACHE.clone(), options: OPTIONS, ..Request::new(&source, &ARM) };
         let outcome = run(&request, &()).unwrap();
@@ -74,7 +79,7 @@ impl Calibration {
         let entry = self.entry();
         store.begin(&entry, &self.json)?;
         let run = self.run(&self.source);
-        fill(&mut store, &entry, (&self.source, &ARM), &run, &|_, _| Ok(()), &())
+        fill(&mut store, &entry, &self.source, &run, &|_, _| Ok(()), &())
     }
 }
 

@@ -1,4 +1,4 @@
-//! From arrays in memory to an answer, with no file of frames: the example of the README.
+//! From arrays in memory to an answer, with no file of frames: the example of docs/library.md.
 
 use crate::run::{UNMASKED, difference, truth};
 use crate::scene::{CAMERA, JOINT_NAMES, URDF, shots};
@@ -6,7 +6,7 @@ use eyebolt::calibrate::Verdict;
 
 #[rustfmt::skip]
 mod example {
-// README: library
+// docs/library.md: begin
 use eyebolt::pipeline::{Outcome, Request, run};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_recording::InMemory;
@@ -27,7 +27,7 @@ pub fn calibrate(camera: PinholeCamera, urdf: &Path, frames: Vec<Frame>) -> Resu
     let arm = robot.arm(None, None)?; // base and end-effector: guessed
     Ok(run(&Request::new(&source, &arm), &())?)
 }
-// README: end
+// docs/library.md: end
 }
 
 #[test]
@@ -47,11 +47,11 @@ fn arrays_in_memory_are_calibrated() {
 }
 
 #[test]
-fn the_readme_shows_this_example() {
+fn the_page_on_the_library_shows_this_example() {
     let here = include_str!("in_memory.rs");
-    let (_, example) = here.split_once("// README: library\n").unwrap();
-    let (example, _) = example.split_once("// README: end").unwrap();
+    let (_, example) = here.split_once("// docs/library.md: begin\n").unwrap();
+    let (example, _) = example.split_once("// docs/library.md: end").unwrap();
     assert!(example.lines().count() < 30);
-    let readme = include_str!("../../../../README.md");
-    assert!(readme.contains(example.trim_end()), "README.md: the library's example is another");
+    let page = include_str!("../../../../docs/library.md");
+    assert!(page.contains(example.trim_end()), "docs/library.md: the library's example is another");
 }

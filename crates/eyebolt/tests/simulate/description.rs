@@ -29,6 +29,17 @@ fn a_longer_link_puts_the_hand_as_much_farther() {
 }
 
 #[test]
+fn a_lower_base_puts_all_that_moves_as_much_higher() {
+    for base_lower_m in [0.05, 0.005, -0.02] {
+        let faults = Faults { base_lower_m, ..Faults::default() };
+        let plan = planned(Scenario { configurations: 1, ..with(faults) });
+        let described = ARM.base_from_end_effector(&joints(&plan)[0]).unwrap().translation_m();
+        let off = plan.workspace_in_base().coords - described;
+        assert!((off - base_lower_m * nalgebra::Vector3::z()).norm() < 1e-9, "{off}");
+    }
+}
+
+#[test]
 fn a_wrist_that_moves_alone_leaves_the_rest_of_the_arm() {
     let faults = Faults { wrist_only: true, ..Faults::default() };
     let plan = planned(Scenario { configurations: 4, ..with(faults) });

@@ -15,6 +15,7 @@ fn ended(kind: Kind, ending: Ending) -> SessionResult {
 fn answer(kind: Kind, error: Deviation, refused: bool) -> SessionResult {
     let refusal = Refusal { name: "misplaced".to_owned(), text: "a link is elsewhere".to_owned() };
     let answered = Answered {
+        still_part: None,
         error: Some(error),
         error_after_bump: None,
         expected: Some(off(2.0, 0.2)),

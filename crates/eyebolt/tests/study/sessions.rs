@@ -57,6 +57,34 @@ fn a_bumped_camera_is_found_and_the_answer_is_of_where_it_was_last() {
     assert_eq!(answered.error, Some(after));
 }
 
+/// The joints' names and all that moves are those of the arm described: another variant.
+#[test]
+fn a_base_that_is_elsewhere_is_found_out() {
+    let lower = |base_lower_m: f64| {
+        let mut session = small(Kind::LowerBase);
+        session.faults.base_lower_m = base_lower_m;
+        session
+    };
+    let result = tried(lower(0.05));
+    let Ending::Answered(answered) = &result.ending else { panic!("{:?}", result.ending) };
+    let error = answered.error.unwrap();
+    assert!((error.translation_m - 0.05).abs() < 0.005, "{error:?}");
+    let reasons: Vec<&str> = answered.refusals.iter().map(|r| r.name.as_str()).collect();
+    assert_eq!(reasons, ["base_elsewhere"]);
+    let shift = answered.still_part.unwrap().shift_m;
+    assert!((shift.z + 0.05).abs() < 0.005 && shift.xy().norm() < 0.005, "{shift:?}");
+    // What is less than answers may be off by is part of what is expected.
+    let result = tried(lower(0.005));
+    let Ending::Answered(answered) = &result.ending else { panic!("{:?}", result.ending) };
+    let [.., most] = answered.quantiles.unwrap();
+    let error = answered.error.unwrap();
+    assert!(error.translation_m <= most.translation_m, "{error:?} {most:?}");
+    let plain = tried(small(Kind::Plain));
+    let Ending::Answered(plain) = &plain.ending else { panic!("{:?}", plain.ending) };
+    let still = plain.still_part.unwrap();
+    assert!(still.seen_through < 1.0 && still.shift_m.norm() < 0.005, "{still:?}");
+}
+
 #[test]
 fn what_is_wrong_with_a_recording_is_told_at_the_door_or_refused() {
     for tampering in [Tampering::DepthUnit(1000.0), Tampering::DepthUnit(0.001), Tampering::Degrees]

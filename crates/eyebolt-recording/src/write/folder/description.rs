@@ -1,6 +1,6 @@
 //! What the folder says of its files: `recording.toml` and `camera_info.yaml`.
 
-use super::names::{CAMERA_INFO, JOINTS, URDF};
+use super::names::{CAMERA_INFO, JOINTS, TF_STATIC, URDF};
 use crate::camera_info::camera_info_message;
 use crate::frame::{Frame, Range};
 use crate::message::{CameraInfoMessage, Header};
@@ -36,8 +36,11 @@ pub(super) fn manifest(recording: &Recording, robot: &WriteRobot, found: Found) 
     let mut line = |line: String| {
         let _ = writeln!(text, "{line}");
     };
-    if recording.camera().is_some() {
-        line(format!("[camera]\ninfo = {}\n", quoted(CAMERA_INFO)));
+    let tells = !recording.static_transforms().is_empty();
+    let info = recording.camera().is_some().then(|| format!("info = {}\n", quoted(CAMERA_INFO)));
+    let tree = tells.then(|| format!("tf_static = {}\n", quoted(TF_STATIC)));
+    if info.is_some() || tree.is_some() {
+        line(format!("[camera]\n{}{}", info.unwrap_or_default(), tree.unwrap_or_default()));
     }
     line("[frames]".to_owned());
     match (found.clouds, recording.in_millimetres()) {

@@ -6,3 +6,5 @@ pub(super) const CAMERA_INFO: &str = "camera_info.yaml";
 pub(super) const JOINTS: &str = "joints.csv";
 /// The robot description.
 pub(super) const URDF: &str = "robot.urdf";
+/// The static transforms around the camera.
+pub(super) const TF_STATIC: &str = "tf_static.yaml";

@@ -5,7 +5,7 @@ use super::tree::{StaticEdge, StaticTree};
 use crate::export::error::ExportError;
 use crate::export::file::read_text;
 use eyebolt_geometry::Transform;
-use eyebolt_recording::{BagOptions, StaticTransform, is_bag, static_transforms};
+use eyebolt_recording::{BagOptions, is_bag, static_transforms};
 use eyebolt_robot::{MAX_URDF_BYTES, PackageRoots, Robot};
 use std::path::Path;
 
@@ -75,11 +75,5 @@ fn bag_edges(file: &str, path: &Path, scratch: &Path) -> Result<Vec<StaticEdge>,
         let remedy = "Record /tf_static too, or store what `ros2 topic echo` prints of it";
         return Err(ExportError::invalid(file, "/tf_static", "there are no transforms", remedy));
     }
-    let edges = transforms.into_iter().enumerate().map(|(index, transform)| {
-        let StaticTransform { parent, child, translation_m, rotation_xyzw } = transform;
-        let parent_from_child =
-            tf_message::pose(file, &format!("transforms[{index}]"), translation_m, rotation_xyzw)?;
-        Ok(StaticEdge { parent, child, parent_from_child })
-    });
-    edges.collect()
+    tf_message::of_transforms(file, transforms)
 }

@@ -1,89 +1,31 @@
-//! Messages of `/tf_static` in text: `tf2_msgs/TFMessage` in YAML, of which JSON is a part.
+//! Messages of `/tf_static` as edges of a tree.
 
 use super::tree::StaticEdge;
 use crate::export::error::ExportError;
 use crate::export::frame_name::Named;
 use eyebolt_geometry::Transform;
-use serde::Deserialize;
+use eyebolt_recording::{StaticTransform, parse_static_transforms};
+use std::path::Path;
 
 pub(super) const REMEDY: &str = "Store what `ros2 topic echo --full-length /tf_static` prints";
 
-/// The fields of ROS 1 and ROS 2; those that are of no use here are not named.
-#[derive(Deserialize)]
-struct Message {
-    transforms: Option<Vec<Stamped>>,
-}
-
-#[derive(Deserialize)]
-struct Stamped {
-    header: Option<Header>,
-    child_frame_id: Option<String>,
-    transform: Option<Pose>,
-}
-
-#[derive(Deserialize)]
-struct Header {
-    frame_id: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct Pose {
-    translation: Option<Xyz>,
-    rotation: Option<Xyzw>,
-}
-
-#[derive(Deserialize)]
-struct Xyz {
-    x: f64,
-    y: f64,
-    z: f64,
-}
-
-#[derive(Deserialize)]
-struct Xyzw {
-    x: f64,
-    y: f64,
-    z: f64,
-    w: f64,
-}
-
 /// The transforms of all messages in `text`: `/tf_static` has one for each publisher.
 pub(super) fn edges(file: &str, text: &str) -> Result<Vec<StaticEdge>, ExportError> {
-    let messages: Vec<Message> = serde_saphyr::from_multiple(text).map_err(|error| {
-        let problem = error.without_snippet().to_string();
-        ExportError::invalid(file, "transforms", problem, REMEDY)
-    })?;
-    let mut edges = Vec::new();
-    for message in messages {
-        let transforms = message.transforms.ok_or_else(|| missing(file, "transforms"))?;
-        for (index, stamped) in transforms.into_iter().enumerate() {
-            edges.push(edge(file, index, stamped)?);
-        }
-    }
-    if edges.is_empty() {
-        return Err(ExportError::invalid(file, "transforms", "there are none", REMEDY));
-    }
-    Ok(edges)
+    of_transforms(file, parse_static_transforms(Path::new(file), text)?)
 }
 
-fn missing(file: &str, field: &str) -> ExportError {
-    ExportError::invalid(file, field, "the field is missing", REMEDY)
-}
-
-fn edge(file: &str, index: usize, stamped: Stamped) -> Result<StaticEdge, ExportError> {
-    let field = |name: &str| format!("transforms[{index}].{name}");
-    let absent = |name: &str| missing(file, &field(name));
-    let header = stamped.header.ok_or_else(|| absent("header"))?;
-    let transform = stamped.transform.ok_or_else(|| absent("transform"))?;
-    let t = transform.translation.ok_or_else(|| absent("transform.translation"))?;
-    let q = transform.rotation.ok_or_else(|| absent("transform.rotation"))?;
-    let parent_from_child =
-        pose(file, &format!("transforms[{index}]"), [t.x, t.y, t.z], [q.x, q.y, q.z, q.w])?;
-    Ok(StaticEdge {
-        parent: header.frame_id.ok_or_else(|| absent("header.frame_id"))?,
-        child: stamped.child_frame_id.ok_or_else(|| absent("child_frame_id"))?,
-        parent_from_child,
-    })
+/// As edges, if tf2 would take each of them.
+pub(super) fn of_transforms(
+    file: &str,
+    transforms: Vec<StaticTransform>,
+) -> Result<Vec<StaticEdge>, ExportError> {
+    let edges = transforms.into_iter().enumerate().map(|(index, transform)| {
+        let StaticTransform { parent, child, translation_m, rotation_xyzw } = transform;
+        let parent_from_child =
+            pose(file, &format!("transforms[{index}]"), translation_m, rotation_xyzw)?;
+        Ok(StaticEdge { parent, child, parent_from_child })
+    });
+    edges.collect()
 }
 
 /// The pose in `field` of a message, if tf2 would take it.

@@ -10,8 +10,8 @@ const SEEN_M: f32 = 0.03;
 /// Points this near to the one nearest to the reference belong to the keypoint too, metres (likewise).
 const TOGETHER_M: f32 = 0.006;
 
-/// The keypoint of each pixel, from 1, where `references` are in the camera frame; 0 for none. Only
-/// pixels of the end-effector have one; of two that claim a pixel, the nearer has it.
+/// The keypoint of each pixel, from 1, where `references` are in the camera frame, not numbers where nobody
+/// knows; 0 for none. Only pixels of the end-effector have one; of two that claim a pixel, the nearer has it.
 pub(super) fn classes(
     references: &[Point3<f64>],
     labels: &[Label],
@@ -26,7 +26,8 @@ pub(super) fn classes(
         .collect();
     let mut classes = vec![0; labels.len()];
     let mut claimed_m = vec![f32::INFINITY; labels.len()];
-    for (class, reference) in (1..).zip(references) {
+    let known = |at: &Point3<f64>| at.iter().all(|x| x.is_finite());
+    for (class, reference) in (1..).zip(references).filter(|(_, at)| known(at)) {
         let reference: Point3<f32> = reference.cast();
         let away = |point: &Point3<f32>| (point - reference).norm();
         let nearest = seen.iter().min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
@@ -61,12 +62,13 @@ mod tests {
             Point3::new(0.0, 0.0, 0.49),
             Point3::new(0.02, 0.01, 0.54),
             Point3::new(0.0, 0.0, 0.5),
+            Point3::new(f64::NAN, f64::NAN, f64::NAN),
         ];
         let classes = classes(&references, &labels, &depth, &rays);
         // A disc of 6 mm about a neighbour of the hole; the third reference claims the same pixels.
         let count = |class: u8| classes.iter().filter(|c| **c == class).count();
         assert!((90..=120).contains(&count(1)), "{}", count(1));
-        assert_eq!((count(2), count(3)), (0, 0));
+        assert_eq!((count(2), count(3), count(4)), (0, 0, 0));
         assert_eq!(classes[30 * 80 + 40], 0);
     }
 }

@@ -42,7 +42,8 @@ pub struct LabelledFrame {
     pub keypoints: Vec<u8>,
     /// Pose of the end-effector link in the camera of the images, with joint offsets corrected.
     pub camera_from_end_effector: Transform<Camera, EndEffectorFrame>,
-    /// Where every keypoint is, whether it is seen or not; camera frame, metres.
+    /// Where every keypoint is, whether it is seen or not; camera frame, metres. Not numbers on a finger
+    /// whose joint was not recorded.
     pub keypoints_in_camera: Vec<Point3<f64>>,
     /// What speaks against the labels of the whole frame.
     pub contradiction: Option<Contradiction>,
@@ -108,9 +109,9 @@ impl<'a> FrameLabeller<'a> {
         let consistency = Consistency::of(&judge, &depth);
         let keypoints_in_camera: Vec<Point3<f64>> = self
             .end_effector
-            .keypoints(joints)
+            .known_keypoints(joints)
             .iter()
-            .map(|keypoint| camera_from_end_effector.point(keypoint))
+            .map(|keypoint| keypoint.map_or(UNKNOWN, |at| camera_from_end_effector.point(&at)))
             .collect();
         let keypoints = keypoints::classes(&keypoints_in_camera, &labels, &depth, &self.rays);
         Ok(Some(LabelledFrame {
@@ -123,6 +124,9 @@ impl<'a> FrameLabeller<'a> {
         }))
     }
 }
+
+/// Where a keypoint is on a finger that may be anywhere.
+const UNKNOWN: Point3<f64> = Point3::new(f64::NAN, f64::NAN, f64::NAN);
 
 fn scaled(depth: &DepthImage, factor: f32) -> DepthImage {
     let depth_m = depth.depth_m().iter().map(|z| factor * z).collect();

@@ -54,6 +54,11 @@ pub fn remedies(reason: &Reason) -> &'static [&'static str] {
             "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
             "If the joint really is that far off, set its zero anew: nothing that rests on it is right.",
         ],
+        Reason::BaseElsewhere { .. } => &[
+            "Give the description of the variant that was recorded: arms of one series share the names of their \
+             joints, and their bases differ.",
+            "See in the pictures below whether the base stands where it is drawn; what it stands on is none of it.",
+        ],
         Reason::JointsExchanged { .. } => &[
             "Compare one recorded joint state with the robot's display: names, order, sign, unit.",
             "In recording.toml, give `joint_names` in the order in which the positions are stored.",

@@ -73,7 +73,7 @@ fn words(source: ErrorSource) -> [&'static str; 2] {
         ],
         ErrorSource::Description => [
             "description and intrinsics",
-            "lengths of links and intrinsics that may be off, each as likely as the data make it",
+            "lengths of links, the base and intrinsics that may be off, each as likely as the data make it",
         ],
         ErrorSource::FewConfigurations => [
             "few configurations",
