@@ -15,7 +15,7 @@ use eyebolt::evaluate::Evaluation;
 use eyebolt::pipeline::{self, Outcome, Request};
 use eyebolt::report::{Context, Picture, TruthComparison, html, overlays};
 use eyebolt::robots::BuiltIn;
-use eyebolt::simulate::{Faults, Preset, Scenario, Viewpoint, plan};
+use eyebolt::simulate::{Faults, Ranges, Scenario, Viewpoint, plan};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_recording::{BagOptions, Recording};
 use eyebolt_registration::LinkCache;
@@ -54,12 +54,11 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let robot = BuiltIn::named("shackle").context("no robot is built in")?;
     let arm = robot.arm();
     let cache = arguments.cache.open();
-    let preset = Preset::named("paper-test-p1").context("no pose is built in")?;
     let scenario = Scenario {
         arm: &arm,
         urdf: robot.urdf,
         sensor: arguments.sensor,
-        viewpoint: Viewpoint::Preset(preset),
+        viewpoint: Viewpoint::Within(whole_arm()),
         configurations: 6,
         frames: 10,
         moving_frames: 0,
@@ -88,6 +87,18 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         session.display()
     ));
     calibrate(&arm, &cache, &folder, &plan.sought_camera_from_base())
+}
+
+/// Where a camera has all of the arm in its image, about wherever it reaches.
+fn whole_arm() -> Ranges {
+    let radians = |degrees: [f64; 2]| degrees.map(f64::to_radians);
+    Ranges {
+        workspace_m: [0.10, 0.0, 0.45],
+        distance_m: [1.75, 1.80],
+        azimuth: radians([40.0, 45.0]),
+        elevation: radians([22.0, 25.0]),
+        askew: 0.03,
+    }
 }
 
 /// The folder that was asked for, or a new one.

@@ -184,6 +184,14 @@ impl Robot {
         })
     }
 
+    /// That joints do not make one tree, if they do not.
+    pub(crate) fn tree_flaw(&self) -> Option<&RobotError> {
+        let of_tree = |flaw: &&Flaw| {
+            matches!((&flaw.of, &flaw.error), (Of::Joint(_), RobotError::Tree { .. }))
+        };
+        self.flaws.iter().find(of_tree).map(|flaw| &flaw.error)
+    }
+
     pub(crate) fn link_names(&self) -> Vec<String> {
         self.links.iter().map(|link| link.name.clone()).collect()
     }

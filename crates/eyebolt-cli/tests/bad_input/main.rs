@@ -18,6 +18,7 @@ mod interrupted;
 mod joints;
 mod label;
 mod meshes;
+mod mistakes;
 mod npy;
 mod outcome;
 mod outputs;

@@ -16,6 +16,7 @@ mod messages;
 mod outcome;
 mod pose;
 mod program;
+mod readme;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;
 mod robots;

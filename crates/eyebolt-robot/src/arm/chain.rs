@@ -86,8 +86,11 @@ impl Arm {
         let (base, end_effector) =
             (named(base, Input::BASE)?, named(end_effector, Input::END_EFFECTOR)?);
         let guessed = Guessed { base: base.is_none(), end_effector: end_effector.is_none() };
-        let base = base.map_or_else(|| guess::base(&robot, end_effector), Ok)?;
-        let end_effector = end_effector.map_or_else(|| guess::end_effector(&robot, base), Ok)?;
+        // Where joints make no tree, a guess fails for that.
+        let says_more = |error| robot.tree_flaw().cloned().unwrap_or(error);
+        let base = base.map_or_else(|| guess::base(&robot, end_effector), Ok).map_err(says_more)?;
+        let end_effector = end_effector.map_or_else(|| guess::end_effector(&robot, base), Ok);
+        let end_effector = end_effector.map_err(says_more)?;
         Self::between(robot, base, end_effector, guessed)
     }
 

@@ -7,7 +7,7 @@
 
 use crate::observations::Observations;
 use eyebolt_geometry::{Base, Camera, Mask, Transform};
-use eyebolt_registration::{ArmModel, Posture, Start, median};
+use eyebolt_registration::{ArmModel, Margin, Posture, Start, median};
 use eyebolt_render::Raster;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -27,6 +27,8 @@ pub struct StillPart {
 const SURELY: f64 = 8.0;
 /// How likely a base is to be elsewhere before anything is seen of it.
 const ELSEWHERE: f64 = 0.05;
+/// By as much; the more seldom, the farther.
+const USUAL_M: f64 = 0.01;
 
 impl StillPart {
     /// How likely it is there, and not where the description has it, with kinds of evidence that disagree
@@ -34,7 +36,8 @@ impl StillPart {
     /// them.
     pub fn probability(&self, birge: f64) -> f64 {
         let log_evidence = self.seen_through + self.nearer / birge.max(1.0);
-        let odds = ELSEWHERE / (1.0 - ELSEWHERE) * log_evidence.exp();
+        let usual = ELSEWHERE * (USUAL_M / self.shift_m.norm().max(USUAL_M)).powi(2);
+        let odds = usual / (1.0 - usual) * log_evidence.exp();
         (odds / (1.0 + odds)).min(1.0)
     }
 
@@ -284,11 +287,13 @@ impl<'a> Still<'a> {
                     let off = f64::from(nearest.distance_m) / self.deviation_m;
                     at_surface * (-0.5 * off * off).exp()
                 });
-            // What stands before the links hides them, wherever they are.
-            match near > 1.0 {
-                true => fit.less += (at_surface + WRONG).ln() - (near + WRONG).ln(),
-                false if seen >= z && inner.as_slice()[pixel] => fit.through += 1,
-                false => continue,
+            let beyond = seen > z + self.observations.noise.margin_m(Margin::Refined, z);
+            match (near > 1.0, beyond) {
+                (false, true) if inner.as_slice()[pixel] => fit.through += 1,
+                (false, true) => continue,
+                // What stands before the links hides them, wherever they are.
+                (false, false) if seen < z => continue,
+                _ => fit.less += (at_surface + WRONG).ln() - (near + WRONG).ln(),
             }
             fit.pixels += 1;
         }
