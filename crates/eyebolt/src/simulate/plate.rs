@@ -21,8 +21,8 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// On the side of a hand, whose box is `low` to `high`, that `along` and `sign` say.
-    fn on(
+    /// On the side of a hand, whose box is `low` to `high`, that `axis` and `sign` say.
+    pub(super) fn on(
         target: &Target,
         (low, high): (Point3<f64>, Point3<f64>),
         axis: usize,
