@@ -80,8 +80,8 @@ fn photographs_show_what_opencv_finds() {
         // in the last picture.
         let limit = if name == "gboriginal.jpg" { 1.5 } else { 0.5 };
         assert!(largest(&outline) <= limit && middle(&outline) <= 0.5, "{name}: {outline:?}");
-        // A fraction of a pixel lies anywhere about a whole one.
-        assert!(middle(&fine) < 0.55 && largest(&fine) < limit + 0.5, "{name}: {fine:?}");
+        // A fraction of a pixel lies anywhere about a whole one; the last picture is of tags of two pixels a cell.
+        assert!(middle(&fine) < 0.65 && largest(&fine) < limit + 0.5, "{name}: {fine:?}");
     }
 }
 
