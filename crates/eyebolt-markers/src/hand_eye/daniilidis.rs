@@ -19,7 +19,7 @@ pub(super) fn solve(motions: &[Motion]) -> Option<Isometry3<f64>> {
         rows.fixed_view_mut::<3, 4>(0, 0).copy_from(&real);
         rows.fixed_view_mut::<3, 4>(3, 0).copy_from(&dual);
         rows.fixed_view_mut::<3, 4>(3, 4).copy_from(&real);
-        moment += rows.transpose() * rows;
+        moment += rows.transpose() * rows * motion.weight;
     }
     let eigen = SymmetricEigen::try_new(moment, f64::EPSILON, 1000)?;
     let mut order: Vec<usize> = (0..8).collect();

@@ -8,7 +8,7 @@ pub(super) fn rotation(motions: &[Motion]) -> Option<Matrix3<f64>> {
     let mut moment = Matrix4::zeros();
     for motion in motions {
         let rows = left(&upper(&motion.camera.rotation)) - right(&upper(&motion.root.rotation));
-        moment += rows.transpose() * rows;
+        moment += rows.transpose() * rows * motion.weight;
     }
     let eigen = SymmetricEigen::try_new(moment, f64::EPSILON, 1000)?;
     let v = eigen.eigenvectors.column(eigen.eigenvalues.imin());

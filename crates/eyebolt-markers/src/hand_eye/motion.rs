@@ -10,20 +10,32 @@ use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Vector3};
 pub(super) struct Motion {
     pub camera: Isometry3<f64>,
     pub root: Isometry3<f64>,
+    /// How far it is to be trusted, at most 1.
+    pub weight: f64,
 }
 
 /// Turned by more than this, it is not sure which way around: noise turns the axis about.
-const LARGEST_RAD: f64 = 3.0;
+const LARGEST_RAD: f64 = 3.05;
 /// The motions' axes have to differ: the root mean square of the rotation about all axes but the main one.
 pub(super) const SPREAD_RAD: f64 = 0.02;
 
+/// Motions whose two angles differ by this many times as much as usual count a quarter.
+const INCONGRUENT: f64 = 2.0;
+/// No angle is known better, radians.
+const LEAST_RAD: f64 = 1e-9;
+
 /// The motions between any two poses.
+///
+/// Whatever the unknown is, marker and robot turn by the same angle (the screw congruence). What differs there
+/// has a pose with a large error in it, and counts less (Geman and McClure's weights): of flat markers, most poses
+/// are good and some are bad.
 pub(super) fn motions<Root: CoordinateFrame, Carrier: CoordinateFrame>(
     pairs: &[PosePair<Root, Carrier>],
 ) -> Vec<Motion> {
     let between = |a: &PosePair<Root, Carrier>, b: &PosePair<Root, Carrier>| Motion {
         camera: b.camera_from_marker.isometry() * a.camera_from_marker.inverse().isometry(),
         root: b.root_from_carrier.isometry() * a.root_from_carrier.inverse().isometry(),
+        weight: 1.0,
     };
     let each = pairs.iter().enumerate();
     let all: Vec<Motion> =
@@ -32,7 +44,20 @@ pub(super) fn motions<Root: CoordinateFrame, Carrier: CoordinateFrame>(
         m.root.rotation.angle() <= LARGEST_RAD && m.camera.rotation.angle() <= LARGEST_RAD
     };
     let few: Vec<Motion> = all.iter().filter(sure).copied().collect();
-    if spread_rad(&few) >= SPREAD_RAD { few } else { all }
+    weighted(if spread_rad(&few) >= SPREAD_RAD { few } else { all })
+}
+
+/// `motions` with their weights.
+fn weighted(mut motions: Vec<Motion>) -> Vec<Motion> {
+    let off = |m: &Motion| (m.root.rotation.angle() - m.camera.rotation.angle()).abs();
+    let mut sizes: Vec<f64> = motions.iter().map(off).collect();
+    sizes.sort_by(f64::total_cmp);
+    let middle = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
+    let usual = INCONGRUENT * middle.max(LEAST_RAD);
+    for motion in &mut motions {
+        motion.weight = (1.0 + (off(motion) / usual).powi(2)).powi(-2);
+    }
+    motions
 }
 
 /// Root mean square of the robot's rotation about the axes that it turned about least; with none, the
@@ -53,8 +78,8 @@ pub(super) fn translation_m(motions: &[Motion], rotation: &Matrix3<f64>) -> Opti
     for motion in motions {
         let rows = motion.camera.rotation.to_rotation_matrix().into_inner() - Matrix3::identity();
         let off = rotation * motion.root.translation.vector - motion.camera.translation.vector;
-        normal += rows.transpose() * rows;
-        right += rows.transpose() * off;
+        normal += rows.transpose() * rows * motion.weight;
+        right += rows.transpose() * off * motion.weight;
     }
     let translation = normal.cholesky()?.solve(&right);
     translation.iter().all(|v| v.is_finite()).then_some(translation)

@@ -7,10 +7,11 @@ use nalgebra::Matrix3;
 /// The rotation of `camera_from_root`; least squares over the rotation vectors, by singular values (which
 /// is the paper's `(M^T M)^(-1/2) M^T`, and stays a rotation where two axes are all there is).
 pub(super) fn rotation(motions: &[Motion]) -> Option<Matrix3<f64>> {
-    let moment: Matrix3<f64> = motions
-        .iter()
-        .map(|m| rotation_log(&m.camera.rotation) * rotation_log(&m.root.rotation).transpose())
-        .sum();
+    let product = |m: &Motion| {
+        let (camera, root) = (rotation_log(&m.camera.rotation), rotation_log(&m.root.rotation));
+        camera * root.transpose() * m.weight
+    };
+    let moment: Matrix3<f64> = motions.iter().map(product).sum();
     let svd = moment.try_svd(true, true, f64::EPSILON, 1000)?;
     let (u, v_t) = (svd.u?, svd.v_t?);
     let mut sign = Matrix3::identity();

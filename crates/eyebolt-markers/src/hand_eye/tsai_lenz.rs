@@ -26,8 +26,8 @@ fn vector(motions: &[Motion], about: &UnitQuaternion<f64>) -> Option<Vector3<f64
         let axis = |q: &UnitQuaternion<f64>| q.imag() * (2.0 * q.w.signum());
         let (camera, root) = (axis(&motion.camera.rotation), about * axis(&motion.root.rotation));
         let rows = (camera + root).cross_matrix();
-        normal += rows.transpose() * rows;
-        right += rows.transpose() * (root - camera);
+        normal += rows.transpose() * rows * motion.weight;
+        right += rows.transpose() * (root - camera) * motion.weight;
     }
     Some(normal.cholesky()?.solve(&right))
 }

@@ -21,7 +21,7 @@ pub struct Look {
 }
 
 /// Samples along each side of a pixel.
-const SAMPLES: usize = 4;
+const SAMPLES: usize = 3;
 
 /// What `camera` sees of `target`, a white sheet with a margin of one cell around it.
 pub fn picture(

@@ -28,16 +28,29 @@ fn of_tutorial(folder: &Path) -> Dictionary {
     Dictionary::custom(6, words.map(word).collect(), 2).unwrap()
 }
 
-fn distances(found: &[Detection], wanted: &[(u32, [Point2<f64>; 4])], outline: bool) -> Vec<f64> {
+/// Distances of corners from the gold's, sorted, pixels.
+fn distances(
+    found: &[Detection],
+    wanted: &[(u32, [Point2<f64>; 4])],
+    corners: impl Fn(&Detection) -> [Point2<f64>; 4],
+) -> Vec<f64> {
     let pairs = found.iter().zip(wanted);
-    let mut all: Vec<f64> = pairs
-        .flat_map(|(found, (_, corners))| {
-            let seen = if outline { found.outline_px } else { found.corners_px };
-            seen.into_iter().zip(*corners).map(|(a, b)| (a - b).norm()).collect::<Vec<_>>()
-        })
-        .collect();
+    let each = pairs.flat_map(|(found, (_, gold))| {
+        corners(found).into_iter().zip(*gold).map(|(a, b)| (a - b).norm()).collect::<Vec<_>>()
+    });
+    let mut all: Vec<f64> = each.collect();
     all.sort_by(f64::total_cmp);
     all
+}
+
+/// Half a pixel inward along both sides: from a marker's edge to the centres of its outermost pixels, of which
+/// the gold is made.
+fn inward(marker: &Detection) -> [Point2<f64>; 4] {
+    let corners = marker.corners_px;
+    [0, 1, 2, 3].map(|i| {
+        let to = |k: usize| (corners[(i + k) % 4] - corners[i]).normalize();
+        corners[i] + (to(1) + to(3)) * 0.5
+    })
 }
 
 #[test]
@@ -59,13 +72,16 @@ fn photographs_show_what_opencv_finds() {
             ids(&mut wanted.iter().map(|m| m.0)),
             "{name}"
         );
-        let (outline, fine) = (distances(&found, &wanted, true), distances(&found, &wanted, false));
-        let told = |all: &[f64]| (all[all.len() / 2], all[all.len() - 1]);
-        eprintln!(
-            "{name}: outline {:?}, refined {:?} px (median, largest)",
-            told(&outline),
-            told(&fine)
-        );
+        let outline = distances(&found, &wanted, |marker| marker.outline_px);
+        let fine = distances(&found, &wanted, inward);
+        let middle = |all: &[f64]| all[all.len() / 2];
+        let largest = |all: &[f64]| all[all.len() - 1];
+        // The gold is of whole pixels, and the same version of OpenCV that finds it in the others is 1.41 px off
+        // in the last picture.
+        let limit = if name == "gboriginal.jpg" { 1.5 } else { 0.5 };
+        assert!(largest(&outline) <= limit && middle(&outline) <= 0.5, "{name}: {outline:?}");
+        // A fraction of a pixel lies anywhere about a whole one; the last picture is of tags of two pixels a cell.
+        assert!(middle(&fine) < 0.65 && largest(&fine) < limit + 0.5, "{name}: {fine:?}");
     }
 }
 
@@ -110,8 +126,8 @@ fn boards_are_seen_whole() {
     let camera =
         PinholeCamera::new(640, 480, 618.6, 619.11, 321.984, 241.146, Distortion::None).unwrap();
     let poses = planar_poses(&sighting.points, &camera);
-    eprintln!("grid: {poses:?}");
-    assert!(poses[0].rms_px < 0.4, "{poses:?}");
+    // OpenCV's corners leave 0.78 px, refined in any of its ways 0.47 to 0.82: the sheet is not quite flat.
+    assert!(poses[0].rms_px < 0.6, "{poses:?}");
 
     let image = picture(&folder.join("test_charuco_board_detection.jpg"));
     let square_m = 0.1971 / 7.0;
@@ -123,7 +139,6 @@ fn boards_are_seen_whole() {
         Distortion::plumb_bob([0.154_054_98, -0.249_168_42, 0.003_507_91, -0.001_100_41, 0.0]);
     let camera = PinholeCamera::new(640, 480, 590.697, 592.847, 322.331, 247.4, lens).unwrap();
     let poses = planar_poses(&sighting.points, &camera);
-    eprintln!("charuco: {poses:?}");
     // OpenCV's corners leave 0.26 px.
     assert!(poses[0].rms_px < 0.3, "{poses:?}");
 }

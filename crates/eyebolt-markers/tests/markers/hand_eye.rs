@@ -90,7 +90,8 @@ proptest! {
         let turned: Vec<_> = noisy.iter().map(|pair| PosePair {
             root_from_carrier: moved * pair.root_from_carrier, ..*pair
         }).collect();
-        for solver in [Solver::ParkMartin, Solver::HoraudDornaika, Solver::Daniilidis] {
+        // The others' equations are of single axes.
+        for solver in [Solver::ParkMartin, Solver::HoraudDornaika] {
             let (a, b) = (solve(solver, &noisy).unwrap(), solve(solver, &turned).unwrap());
             let (metres, radians) = (b.camera_from_root * moved).distance_to(&a.camera_from_root);
             prop_assert!(metres < 1e-6 && radians < 1e-6, "{solver:?}: {metres} m, {radians} rad");
@@ -177,26 +178,39 @@ fn refinement_survives_a_wrong_view_and_a_wrong_size() {
     assert!(best.views[4].weight < 0.1 && best.views[3].weight > 0.7, "{:?}", best.views);
 }
 
+/// Beside this, `examples/noise_study.py` compares with OpenCV.
 #[test]
-fn covariance_is_about_as_large_as_errors_are() {
+fn covariance_is_about_as_large_as_errors_are_and_refinement_is_best() {
     let (mut squared, mut left_out) = (Vec::new(), Vec::new());
+    let (mut fine, mut coarse) = (Vec::new(), [const { Vec::new() }; 4]);
     for seed in 0..60 {
         let (truth, robot) = laboratory(seed);
         let views = views(&truth, &robot, 0.1, 0.3, seed);
-        let start = starts(&views)[1].answer.unwrap();
-        let refined = refine(&views, &camera(), &start).unwrap();
+        let starts = starts(&views);
+        let wrong = |answer: &HandEye<Base, EndEffector>| {
+            answer.camera_from_root.distance_to(&truth.camera_from_root).0
+        };
+        for (start, errors) in starts.iter().zip(&mut coarse) {
+            errors.push(wrong(&start.answer.unwrap()));
+        }
+        let refined = refine(&views, &camera(), &starts[1].answer.unwrap()).unwrap();
+        fine.push(wrong(&refined.hand_eye));
         let off = refined.hand_eye.camera_from_root.local(&truth.camera_from_root);
         squared.push(off.dot(&(refined.covariance.try_inverse().unwrap() * off)) / 6.0);
         // Twelve views tell the size of an error, not its shape in all directions.
         let expected = refined.left_out.unwrap().covariance.fixed_view::<3, 3>(0, 0).trace();
         left_out.push(off.fixed_rows::<3>(0).norm_squared() / expected);
     }
-    for mut all in [squared, left_out] {
+    let middle = |mut all: Vec<f64>| {
         all.sort_by(f64::total_cmp);
+        all[all.len() / 2]
+    };
+    for all in [squared, left_out].map(middle) {
         // The median of chi-square over its degrees of freedom is 0.8 to 0.9.
-        let middle = all[all.len() / 2];
-        assert!((0.3..2.0).contains(&middle), "{middle}");
+        assert!((0.3..2.0).contains(&all), "{all}");
     }
+    let (fine, coarse) = (middle(fine), coarse.map(middle));
+    assert!(coarse.iter().all(|coarse| fine < 0.5 * coarse), "{fine} of {coarse:?}");
 }
 
 #[test]

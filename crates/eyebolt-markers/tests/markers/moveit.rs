@@ -1,9 +1,9 @@
 //! Fifty real pairs of poses, with the answer that MoveIt's own test expects.
 
 use crate::shared::shared;
-use eyebolt_geometry::{Base, Camera, EndEffector, Transform};
+use eyebolt_geometry::{Base, Camera, EndEffector, Transform, rotation_exp};
 use eyebolt_markers::hand_eye::{HandEye, PosePair, Solver, refine_poses, solve};
-use nalgebra::{Matrix4, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix4, Vector3};
 
 fn samples(folder: &std::path::Path) -> Vec<PosePair<Base, EndEffector>> {
     let text = std::fs::read_to_string(folder.join("pose_samples.json")).unwrap();
@@ -33,16 +33,13 @@ fn real_poses_give_the_expected_camera() {
     let pairs = samples(&data.join("handeye/moveit_calibration"));
     assert_eq!(pairs.len(), 50);
     let answers = Solver::ALL.map(|solver| solve(solver, &pairs).unwrap());
-    // Eigen's eulerAngles(0, 1, 2) are turns about x, then the new y, then the new z. MoveIt writes 0.230 for
-    // the first and allows a percent of all three together; 0.236 is what OpenCV has, and passes there.
-    let turn = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
-    let expected = turn(Vector3::x_axis(), 0.236)
-        * turn(Vector3::y_axis(), -2.540)
-        * turn(Vector3::z_axis(), 1.950);
+    // What OpenCV 4.11 has (calibrateHandEye, Park). MoveIt's test has the same translation, and angles of three
+    // digits, of which the first is 0.3 degrees off.
     let expected: Transform<Base, Camera> = Transform::from_parts(
-        Vector3::new(0.659, -0.249, 0.830),
-        UnitQuaternion::from_rotation_matrix(&expected),
+        Vector3::new(0.65949, -0.25007, 0.83028),
+        rotation_exp(&Vector3::new(-2.07925, -1.51931, 0.48775)),
     );
+    assert!((expected.translation_m() - Vector3::new(0.659, -0.249, 0.830)).norm() < 0.002);
     for (solver, answer) in Solver::ALL.iter().zip(&answers) {
         let (metres, radians) = answer.camera_from_root.inverse().distance_to(&expected);
         assert!(metres < 0.002, "{solver:?}: {metres} m");

@@ -42,7 +42,7 @@ fn at(
 }
 
 proptest! {
-    #![proptest_config(config(60))]
+    #![proptest_config(config(40))]
 
     #[test]
     fn a_tag_is_found_to_a_fraction_of_a_pixel(
@@ -74,7 +74,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(16))]
+    #![proptest_config(config(8))]
 
     #[test]
     fn a_board_tells_its_pose(

@@ -21,7 +21,7 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// On the side of a hand, whose box is `low` to `high`, that `along` and `sign` say.
+    /// On the side of a hand, whose box is `low` to `high`, that `axis` and `sign` say.
     pub(super) fn on(
         target: &Target,
         (low, high): (Point3<f64>, Point3<f64>),
