@@ -4,8 +4,9 @@ mod calibration;
 mod models;
 
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, RobotArguments, use_threads};
+use crate::inputs::{CacheArguments, RobotArguments, marker, use_threads};
 use anyhow::{Result, bail};
+use eyebolt_markers::Target;
 use std::path::PathBuf;
 
 /// Options of `eyebolt evaluate`.
@@ -22,6 +23,12 @@ pub struct Arguments {
     /// With --model: what to take for the truth of recordings that have none, one for each of them in their order
     #[arg(long, value_name = "CALIBRATION", requires = "model")]
     calibration: Vec<PathBuf>,
+    /// With --model: also calibrate by this marker the recordings of --marked, as calibrate --marker does
+    #[arg(long, value_name = "MARKER", value_parser = marker, requires_all = ["model", "marked"])]
+    marker: Option<Target>,
+    /// Recording with a marker on the hand, which changes its shape: of the same poses, made apart. May be repeated
+    #[arg(long, value_name = "RECORDING", requires = "marker")]
+    marked: Vec<PathBuf>,
     #[command(flatten)]
     robot: RobotArguments,
     /// JSON instead of text
@@ -51,6 +58,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             recordings: &arguments.paths,
             models: &arguments.model,
             calibrations: &arguments.calibration,
+            marker: arguments.marker.as_ref(),
+            marked: &arguments.marked,
             robot: &arguments.robot,
             json: arguments.json,
             csv: arguments.csv.as_deref(),

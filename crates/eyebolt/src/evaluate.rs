@@ -7,6 +7,7 @@ mod scores;
 mod session;
 mod table;
 mod tables;
+mod tag;
 
 pub use calibration::{Evaluation, evaluate};
 pub use pose_errors::{PoseErrors, Statistics};
@@ -14,3 +15,4 @@ pub use scores::{Calibrated, METHODS, Scores};
 pub use session::{EvaluateError, Model, Reference, session};
 pub use table::{Cell, Row, Table};
 pub use tables::tables;
+pub use tag::by_marker;

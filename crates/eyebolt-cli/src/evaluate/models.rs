@@ -5,10 +5,11 @@ use crate::inputs::{CacheArguments, RobotArguments};
 use crate::output;
 use crate::progress::Bar;
 use anyhow::{Context, Result, bail};
-use eyebolt::evaluate::{Model, Reference, Scores, Table, session, tables};
+use eyebolt::evaluate::{Calibrated, Model, Reference, Scores, Table, by_marker, session, tables};
 use eyebolt::export::SavedCalibration;
 use eyebolt::pipeline::Request;
 use eyebolt::report::tables_page;
+use eyebolt_markers::Target;
 use eyebolt_recording::{BagOptions, Recording, read_truth};
 use eyebolt_robot::Arm;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,8 @@ pub struct Wanted<'a> {
     pub recordings: &'a [PathBuf],
     pub models: &'a [String],
     pub calibrations: &'a [PathBuf],
+    pub marker: Option<&'a Target>,
+    pub marked: &'a [PathBuf],
     pub robot: &'a RobotArguments,
     pub json: bool,
     pub csv: Option<&'a Path>,
@@ -43,6 +46,11 @@ pub fn run(wanted: &Wanted<'_>) -> Result<Ending> {
             of_model.push((short_name(path), scores));
         }
         results.push((model.name.as_str(), of_model));
+    }
+    if let Some((_, (_, scores))) =
+        results.first_mut().and_then(|(name, of_model)| Some((name, of_model.first_mut()?)))
+    {
+        scores.calibrations.extend(tags(wanted, &bar)?);
     }
     bar.finish();
     let results: Vec<(&str, &[(String, Scores)])> =
@@ -132,6 +140,22 @@ fn of_recording(
     }
     let request = Request { cache: wanted.cache.open(), ..Request::new(recording.source(), &arm) };
     Ok(session(&request, reference, model, bar)?)
+}
+
+/// Calibrations by the marker, if there is one.
+fn tags(wanted: &Wanted<'_>, bar: &Bar) -> Result<Vec<Calibrated>> {
+    let Some(target) = wanted.marker else { return Ok(Vec::new()) };
+    let of = |path: &PathBuf| -> Result<Calibrated> {
+        let camera_from_base = read_truth(path)?.camera_from_base;
+        let recording = Recording::open(path, &BagOptions::default())?;
+        let arm = wanted.robot.arm(path, &recording)?;
+        check_arm(path, &arm)?;
+        let request = Request::new(recording.source(), &arm);
+        Ok(by_marker(&request, &Reference { camera_from_base }, target, bar)?)
+    };
+    let each =
+        wanted.marked.iter().map(|path| of(path).with_context(|| path.display().to_string()));
+    each.collect()
 }
 
 /// The truth is of one link as base.

@@ -55,6 +55,8 @@ pub fn steps(arguments: &Arguments) -> Vec<Step> {
     let tested =
         |(index, pose): (usize, &&str)| record(arguments, "test", pose, 100 + index, size.test);
     steps.extend(POSES.iter().enumerate().map(tested));
+    let marked = |(index, pose): (usize, &&str)| mark(arguments, pose, 100 + index, size.test);
+    steps.extend(POSES.iter().enumerate().map(marked));
     steps.push(evaluate(arguments, &models));
     steps
 }
@@ -73,6 +75,22 @@ fn record(
     words.extend(["--frames".into(), frames.to_string(), "--seed".into(), seed.to_string()]);
     words.extend(["--output".into(), word(&product)]);
     Step { about: format!("record {what} pose {pose}"), product, arguments: words }
+}
+
+/// The marker that a hand carries in recordings for the paper's baseline.
+const MARKER: &str = "aruco:4x4_50:0.08";
+/// So many of its configurations, since not all show the marker.
+const MARKED: u32 = 3;
+
+fn mark(arguments: &Arguments, pose: &str, seed: usize, [configurations, _]: [u32; 2]) -> Step {
+    let mut step = record(arguments, "test", pose, seed, [MARKED * configurations, 1]);
+    step.about = format!("record test pose {pose} with a marker on the hand");
+    step.product = recording(arguments, "marked", pose);
+    if let Some(output) = step.arguments.last_mut() {
+        *output = word(&step.product);
+    }
+    step.arguments.extend(words(&["--marker", MARKER]));
+    step
 }
 
 fn label(arguments: &Arguments, pose: &str) -> Step {
@@ -105,6 +123,9 @@ fn evaluate(arguments: &Arguments, models: &[String]) -> Step {
     words.extend(POSES.iter().map(|pose| word(&recording(arguments, "test", pose))));
     words.extend(robot(arguments));
     words.extend(models.iter().flat_map(|model| ["--model".into(), model.clone()]));
+    words.extend(["--marker".into(), MARKER.into()]);
+    let marked = POSES.iter().map(|pose| word(&recording(arguments, "marked", pose)));
+    words.extend(marked.flat_map(|path| ["--marked".into(), path]));
     words.extend(["--csv".into(), word(&arguments.output.join("tables.csv"))]);
     words.extend(["--report".into(), word(&product), "--force".into()]);
     Step { about: "evaluate".into(), product, arguments: words }

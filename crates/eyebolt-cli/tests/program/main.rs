@@ -19,6 +19,7 @@ mod program;
 mod readme;
 #[path = "../../../eyebolt/tests/newcomer/recording.rs"]
 mod recording;
+mod reproduce;
 mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;

@@ -14,6 +14,14 @@ pub const METHODS: [(&str, PoseMethod, bool); 5] = [
     ("fused", PoseMethod::Fused, true),
 ];
 
+/// What the rows of the table of calibrations are called.
+pub(super) const TAG: &str = "tag";
+pub(super) const OURS: &str = "paper";
+pub(super) const OURS_ICP: &str = "paper + ICP";
+pub(super) const TRUE_ICP: &str = "true labels + ICP";
+pub(super) const BEST: &str = "eyebolt, with the model";
+pub(super) const NOTHING: &str = "eyebolt, from nothing";
+
 /// A calibration, and how far off it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibrated {

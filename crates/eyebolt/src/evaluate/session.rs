@@ -2,9 +2,10 @@
 
 use super::calibration::Evaluation;
 use super::pose_errors::PoseErrors;
-use super::scores::{Calibrated, METHODS, Scores};
+use super::scores::{BEST, Calibrated, METHODS, NOTHING, OURS, OURS_ICP, Scores, TRUE_ICP};
 use crate::end_effector::{EndEffector, EndEffectorError};
 use crate::label::{FrameLabeller, Labeller, Learned, class_of};
+use crate::markers::MarkerFailure;
 use crate::observations::Observations;
 use crate::paper::{self, FrameEstimator, FrameLabels, Paper, PaperError};
 use crate::pipeline::{self, Failure, Outcome, Request};
@@ -41,6 +42,9 @@ pub enum EvaluateError {
     /// Of a calibration.
     #[error(transparent)]
     Paper(#[from] PaperError),
+    /// Of one by a marker.
+    #[error(transparent)]
+    Marker(#[from] MarkerFailure),
     /// The recording cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -181,13 +185,6 @@ impl Estimators {
         Some(estimator)
     }
 }
-
-/// What the rows of the paper's table of calibrations are called, but for the tag's.
-pub(super) const OURS: &str = "paper";
-pub(super) const OURS_ICP: &str = "paper + ICP";
-pub(super) const TRUE_ICP: &str = "true labels + ICP";
-pub(super) const BEST: &str = "eyebolt, with the model";
-pub(super) const NOTHING: &str = "eyebolt, from nothing";
 
 fn calibrations(
     request: &Request<'_>,

@@ -4,8 +4,7 @@ use super::paper_figures::{
     BY_FOUND_LABELS, BY_TRUE_LABELS, CALIBRATION, SEGMENTATION, row as printed,
 };
 use super::pose_errors::{PoseErrors, Statistics};
-use super::scores::{Calibrated, METHODS, Scores};
-use super::session::{BEST, NOTHING, OURS, OURS_ICP, TRUE_ICP};
+use super::scores::{BEST, Calibrated, METHODS, NOTHING, OURS, OURS_ICP, Scores, TAG, TRUE_ICP};
 use super::table::{Cell, Row, Table};
 use crate::segment::{ARM, BACKGROUND, END_EFFECTOR};
 
@@ -107,7 +106,9 @@ fn calibrations(all: &[Calibrated]) -> Table {
         ];
         Row { name: (*name).to_owned(), cells }
     };
-    let rows = [OURS, OURS_ICP, TRUE_ICP, BEST, NOTHING].iter().map(row).collect();
+    let there = |name: &&&str| **name != TAG || all.iter().any(|it| it.method == TAG);
+    let names = [TAG, OURS, OURS_ICP, TRUE_ICP, BEST, NOTHING];
+    let rows = names.iter().filter(there).map(row).collect();
     let columns = ["translation mm", "rotation deg", "recordings", "trusted"];
     let columns = columns.map(str::to_owned).to_vec();
     Table { title: "Calibration of a recording".into(), columns, rows }
