@@ -23,7 +23,7 @@ struct Size {
 /// The paper's setting: about 7000 frames of three poses to learn from, and six configurations of ten frames of three
 /// others to test on.
 const WHOLE: Size = Size { training: [233, 10], test: [6, 10], steps: 20_000 };
-const QUICK: Size = Size { training: [10, 2], test: [5, 2], steps: 400 };
+const QUICK: Size = Size { training: [8, 2], test: [5, 1], steps: 400 };
 
 /// Places of the camera.
 const POSES: [&str; 3] = ["p1", "p2", "p3"];
