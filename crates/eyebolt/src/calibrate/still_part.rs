@@ -26,8 +26,8 @@ pub struct StillPart {
 /// The logarithm of the likelihood that has to be won for a base to be elsewhere without doubt.
 const SURELY: f64 = 8.0;
 /// How likely a base is to be elsewhere before anything is seen of it.
-const ELSEWHERE: f64 = 0.05;
-/// By as much; the more seldom, the farther.
+const ELSEWHERE: f64 = 0.2;
+/// By as much: bases of described arms are millimetres off now and then, and hardly ever far.
 const USUAL_M: f64 = 0.01;
 
 impl StillPart {
@@ -36,7 +36,7 @@ impl StillPart {
     /// them.
     pub fn probability(&self, birge: f64) -> f64 {
         let log_evidence = self.seen_through + self.nearer / birge.max(1.0);
-        let usual = ELSEWHERE * (USUAL_M / self.shift_m.norm().max(USUAL_M)).powi(2);
+        let usual = ELSEWHERE * (USUAL_M / self.shift_m.norm().max(USUAL_M)).powi(4);
         let odds = usual / (1.0 - usual) * log_evidence.exp();
         (odds / (1.0 + odds)).min(1.0)
     }
