@@ -3,7 +3,8 @@
 use crate::grey::GreyImage;
 use nalgebra::{Matrix2, Point2, Vector2};
 
-/// How far to both sides of an edge its profile is read, in cells: a cell farther in, the pattern begins.
+/// How far to both sides of an edge its profile is read, in cells as they are seen across the edge: a cell
+/// farther in, the pattern begins.
 const REACH_CELLS: f64 = 0.7;
 /// The least and the most of that, pixels.
 const REACH_PX: (f64, f64) = (1.5, 4.0);
@@ -33,7 +34,8 @@ pub(super) fn refined(
 ) -> Option<[Point2<f64>; 4]> {
     let mut now = *corners;
     for _ in 0..ROUNDS {
-        let side = |i: usize| edge(image, now[i], now[(i + 1) % 4], cells);
+        let row_area = area(&now) / cells as f64;
+        let side = |i: usize| edge(image, now[i], now[(i + 1) % 4], cells, row_area);
         let lines = [side(0)?, side(1)?, side(2)?, side(3)?];
         let corner = |i: usize| meeting(&lines[(i + 3) % 4], &lines[i]);
         now = [corner(0)?, corner(1)?, corner(2)?, corner(3)?];
@@ -45,12 +47,25 @@ pub(super) fn refined(
     Some(now)
 }
 
-/// The line along the edge between `from` and `to`, dark on its right.
-fn edge(image: &GreyImage, from: Point2<f64>, to: Point2<f64>, cells: usize) -> Option<Line> {
+/// Area of a quadrilateral, square pixels.
+fn area(corners: &[Point2<f64>; 4]) -> f64 {
+    let [a, b, c, d] = corners;
+    0.5 * (c - a).perp(&(d - b)).abs()
+}
+
+/// The line along the edge between `from` and `to`, dark on its right, of a marker whose rows of cells have that
+/// area.
+fn edge(
+    image: &GreyImage,
+    from: Point2<f64>,
+    to: Point2<f64>,
+    cells: usize,
+    row_area: f64,
+) -> Option<Line> {
     let length = (to - from).norm();
     let along = (to - from) / length;
     let outward = Vector2::new(along.y, -along.x);
-    let reach = (REACH_CELLS * length / cells as f64).clamp(REACH_PX.0, REACH_PX.1);
+    let reach = (REACH_CELLS * row_area / length).clamp(REACH_PX.0, REACH_PX.1);
     // Near its ends, an edge is bent by the blur of the next.
     let clear = (0.5 * length / cells as f64).max(1.5).min(0.25 * length);
     let count = (length - 2.0 * clear).clamp(PROFILES.0, PROFILES.1).round();

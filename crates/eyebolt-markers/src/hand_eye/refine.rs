@@ -8,8 +8,9 @@ use nalgebra::Matrix6;
 
 /// Points within this many standard deviations count nearly in full.
 const ROBUST_SIGMAS: f64 = 5.0;
-/// No corner is known better, pixels.
-const LEAST_SIGMA_PX: f64 = 0.01;
+/// No corner is known better, pixels: what is left over of few views may happen to be less, and good views
+/// would then seem to be bad.
+const LEAST_SIGMA_PX: f64 = 0.05;
 /// Median of a two-dimensional normal distribution's length, in standard deviations of a coordinate.
 const MEDIAN: f64 = 1.1774;
 const STEPS: usize = 60;

@@ -49,13 +49,13 @@ fn a_tag_on_the_hand_tells_the_camera() {
     let truth = plan.camera_from_base();
     let at = plan.workspace_in_base();
     let off = (answer.point(&at) - truth.point(&at)).norm();
-    assert!(off < 0.003 && off < 3.0 * error.expected.translation_m, "{off} m, {error:?}");
+    assert!(off < 0.008 && off < 3.0 * error.expected.translation_m, "{off} m, {error:?}");
     let turned = answer.rotation().angle_to(&truth.rotation()).to_degrees();
-    assert!(turned < 0.3 && turned < 3.0 * error.expected.rotation_rad.to_degrees(), "{turned}");
+    assert!(turned < 0.5 && turned < 3.0 * error.expected.rotation_rad.to_degrees(), "{turned}");
     let refined = calibration.refined.unwrap();
     let mount = plan.end_effector_from_marker().unwrap();
     let (metres, _) = refined.hand_eye.carrier_from_marker.distance_to(&mount);
-    assert!(metres < 0.004 && refined.size_error.abs() < 0.01, "{metres} m, {refined:?}");
+    assert!(metres < 0.010 && refined.size_error.abs() < 0.01, "{metres} m, {refined:?}");
 
     // The arm's own shape goes on from there: the plate is not in its description.
     let without = Request { cache: CACHE.clone(), ..Request::new(&source, &ARM) };
