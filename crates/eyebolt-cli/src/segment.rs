@@ -1,13 +1,18 @@
 //! `eyebolt segment`.
 
+mod cloud;
+
 use crate::ending::Ending;
 use crate::inputs::{RecordingArguments, use_threads};
 use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
+use cloud::CloudForm;
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
+use eyebolt::report::classes;
 use eyebolt::segment::{ARM, END_EFFECTOR, Segmenter};
+use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_recording::write_npy;
 use std::path::PathBuf;
 
@@ -22,6 +27,12 @@ pub struct Arguments {
     /// Folder for label_FRAME.npy: 0 background, 1 arm, 2 end-effector, 255 no depth
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
+    /// Also write the labelled points of each frame there, as cloud_FRAME.ply or .pcd
+    #[arg(long, value_enum, value_name = "FORM")]
+    clouds: Option<CloudForm>,
+    /// Draw each frame with the arm in blue and its end-effector in yellow, as PNG files in this folder
+    #[arg(long, value_name = "FOLDER")]
+    overlay: Option<PathBuf>,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -37,7 +48,11 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let recording = arguments.recording.open()?;
     let names = recording.frame_names().to_vec();
     let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
-    names.iter().try_for_each(|name| output::refuse_existing(&path(name), arguments.force))?;
+    let more = More { arguments };
+    for name in &names {
+        output::refuse_existing(&path(name), arguments.force)?;
+        more.refuse_existing(name)?;
+    }
     if names.is_empty() {
         bail!("{}: there is no frame in it", arguments.recording.recording.display());
     }
@@ -54,6 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
         arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
         hand += usize::from(count(END_EFFECTOR) > 0);
+        more.write(name, &depth, images.camera(), &found.label)?;
         let bytes = write_npy("|u1", &[found.height, found.width], found.label);
         output::write_whole(&path(name), &bytes, arguments.force)?;
     }
@@ -68,4 +84,42 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         output::complain(&format!("note: {left_out} damaged frames left out"));
     }
     Ok(Ending::Done)
+}
+
+/// What is written beside labels.
+struct More<'a> {
+    arguments: &'a Arguments,
+}
+
+impl More<'_> {
+    fn cloud(&self, name: &str) -> Option<(CloudForm, PathBuf)> {
+        let form = self.arguments.clouds?;
+        Some((form, self.arguments.output.join(format!("cloud_{name}.{}", form.ending()))))
+    }
+
+    fn picture(&self, name: &str) -> Option<PathBuf> {
+        Some(self.arguments.overlay.as_ref()?.join(format!("overlay_{name}.png")))
+    }
+
+    fn refuse_existing(&self, name: &str) -> Result<()> {
+        let paths = self.cloud(name).map(|(_, path)| path).into_iter().chain(self.picture(name));
+        paths.into_iter().try_for_each(|path| output::refuse_existing(&path, self.arguments.force))
+    }
+
+    fn write(
+        &self,
+        name: &str,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        label: &[u8],
+    ) -> Result<()> {
+        if let Some((form, path)) = self.cloud(name) {
+            output::write_whole(&path, &form.bytes(depth, camera, label), self.arguments.force)?;
+        }
+        if let Some(path) = self.picture(name) {
+            let picture = classes(depth, label).encode_png();
+            output::write_whole(&path, &picture, self.arguments.force)?;
+        }
+        Ok(())
+    }
 }

@@ -10,6 +10,6 @@ mod picture;
 mod residual;
 
 pub use html::{Context, TruthComparison, html, remedies, tables_page};
-pub use labelled::labelled;
+pub use labelled::{classes, labelled};
 pub use overlay::{Drawn, overlay, overlays};
 pub use picture::Picture;

@@ -4,6 +4,8 @@ use super::backdrop;
 use super::picture::{Picture, Rgb};
 use crate::dataset::DatasetFrame;
 use crate::end_effector::EndEffector;
+use crate::segment;
+use eyebolt_geometry::DepthImage;
 use eyebolt_registration::Label;
 use nalgebra::{Point2, Point3};
 
@@ -41,6 +43,19 @@ const EDGES: [[usize; 2]; 12] = [
     [2, 6],
     [3, 7],
 ];
+
+/// `depth` in grey, with the pixels in blue that a network has for the arm, and in yellow those of its end-effector.
+pub fn classes(depth: &DepthImage, label: &[u8]) -> Picture {
+    let mut picture = backdrop::from_depth(depth);
+    for (at, label) in label.iter().enumerate().take(depth.depth_m().len()) {
+        match *label {
+            segment::ARM => picture.blend(at, ARM, LABEL_OPACITY),
+            segment::END_EFFECTOR => picture.blend(at, END_EFFECTOR, LABEL_OPACITY),
+            _ => {}
+        }
+    }
+    picture
+}
 
 /// `frame` as grey depth with the arm in blue, the end-effector in yellow and what is ignored in pink;
 /// the end-effector's box in green, and pixels of each keypoint in a colour of its own about a cross
