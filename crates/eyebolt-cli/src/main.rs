@@ -66,7 +66,7 @@ enum Command {
     ///
     /// The recording is an ordinary one, for `eyebolt calibrate` and everybody else. Where the camera
     /// really was is in a record of its own, which only `eyebolt evaluate` reads.
-    Simulate(simulate::Arguments),
+    Simulate(Box<simulate::Arguments>),
     /// Say how far a calibration of a simulated recording is from the truth, or how good a model is
     ///
     /// Refused calibrations are evaluated too: whether they were refused is part of the answer. With --model it

@@ -131,7 +131,9 @@ fn by_paper(
             }
             FrameLabels::Predicted(Box::new(segmenter))
         }
-        LabelsFrom::True => FrameLabels::True(Start::from(read_truth(recording)?.camera_from_base)),
+        LabelsFrom::True => {
+            FrameLabels::True(Box::new(Start::from(read_truth(recording)?.camera_from_base)))
+        }
     };
     let estimator = FrameEstimator::new(estimator(folder, request)?, !arguments.no_icp);
     let mut paper = Paper { labels, estimator };

@@ -72,7 +72,7 @@ pub fn refine<Root: CoordinateFrame, Carrier: CoordinateFrame>(
         let step = damped(&now.information, damping)?.solve(&-now.gradient);
         let next = state.moved(&step);
         let cost = total(&next, views, camera, &scale).cost;
-        if !(cost <= now.cost) {
+        if cost > now.cost || cost.is_nan() {
             damping *= 10.0;
             if damping > 1e12 {
                 break;

@@ -72,8 +72,7 @@ pub fn solve<Root: CoordinateFrame, Carrier: CoordinateFrame>(
     }
     let motions = motions(pairs);
     let spread = spread_rad(&motions);
-    // False for NaN too.
-    if !(spread >= SPREAD_RAD) {
+    if spread < SPREAD_RAD || spread.is_nan() {
         return Err(HandEyeError::ParallelAxes { spread_deg: spread.to_degrees() });
     }
     let isometry = match solver {

@@ -104,8 +104,8 @@ fn saddle(image: &GreyImage, start: Point2<f64>, window_px: f64) -> Option<Point
         }
         let step = normal.try_inverse()? * right;
         at += step;
-        // False for NaN too.
-        if !((at - start).norm() <= window_px) {
+        let moved_px = (at - start).norm();
+        if moved_px > window_px || moved_px.is_nan() {
             return None;
         }
         if step.norm() < SETTLED_PX {

@@ -196,7 +196,7 @@ fn calibrations(
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
     let open = || PoseEstimator::open(folder, shape.clone(), PoseMethod::Fused);
     let predicted = || Ok::<_, EvaluateError>(FrameLabels::Predicted(Box::new(segmenter(model)?)));
-    let known = FrameLabels::True(Start::from(*camera_from_base));
+    let known = FrameLabels::True(Box::new(Start::from(*camera_from_base)));
     let mut outcomes = Vec::new();
     for (method, labels, refines) in
         [(OURS, predicted()?, false), (OURS_ICP, predicted()?, true), (TRUE_ICP, known, true)]

@@ -78,7 +78,7 @@ pub fn calibrate<A: Arrangement>(
         let open = calibration.starts.iter().find_map(|start| start.answer.err());
         let few = matches!(open, Some(HandEyeError::FewPoses { .. }));
         let reason = open.map_or(MarkerReason::Underdetermined, MarkerReason::Open);
-        if !(few && !calibration.reasons.is_empty()) {
+        if !few || calibration.reasons.is_empty() {
             calibration.reasons.push(reason);
         }
         return calibration;
@@ -139,8 +139,7 @@ where
     let mut reasons = Vec::new();
     let off = refined.views.iter().filter(|view| view.weight < LEAST_WEIGHT).count();
     let seen = refined.views.len();
-    // False for NaN too.
-    if !(refined.last_step <= SETTLED) {
+    if refined.last_step > SETTLED || refined.last_step.is_nan() {
         reasons.push(MarkerReason::NotSettled);
     }
     if off as f64 > MOST_OFF * seen as f64 {

@@ -25,7 +25,7 @@ pub enum FrameLabels {
     /// Networks.
     Predicted(Box<Segmenter>),
     /// The arm posed where it is known to be, as the paper's table has it for comparison.
-    True(Start),
+    True(Box<Start>),
 }
 
 /// The paper's chain.
@@ -134,7 +134,7 @@ impl<'a> Labelled<'a> {
         match labels {
             FrameLabels::Predicted(segmenter) => Self::Predicted(segmenter, &observations.camera),
             FrameLabels::True(at) => {
-                let labeller = FrameLabeller::new(observations, request.arm, end_effector, *at);
+                let labeller = FrameLabeller::new(observations, request.arm, end_effector, **at);
                 Self::True(Box::new(labeller))
             }
         }
