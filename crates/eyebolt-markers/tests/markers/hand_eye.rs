@@ -12,6 +12,7 @@ use eyebolt_markers::hand_eye::{
 use eyebolt_markers::{Marker, planar_poses};
 use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 fn pairs<Root: CoordinateFrame, Carrier: CoordinateFrame>(
     truth: &HandEye<Root, Carrier>,
@@ -41,8 +42,8 @@ proptest! {
     /// Eye-to-hand: a marker on the hand, a camera that stands still, anywhere and turned in any way.
     #[test]
     fn exact_poses_give_the_camera_back_eye_to_hand(
-        camera_from_root in transform::<Camera, Base>(2.0, 0.0..3.14),
-        carrier_from_marker in transform::<EndEffector, Marker>(0.2, 0.0..3.14),
+        camera_from_root in transform::<Camera, Base>(2.0, 0.0..PI),
+        carrier_from_marker in transform::<EndEffector, Marker>(0.2, 0.0..PI),
         robot in poses(),
     ) {
         let truth = HandEye { camera_from_root, carrier_from_marker };
@@ -59,8 +60,8 @@ proptest! {
     /// Eye-in-hand: the same with the robot's poses the other way round.
     #[test]
     fn exact_poses_give_the_camera_back_eye_in_hand(
-        camera_from_root in transform::<Camera, EndEffector>(0.2, 0.0..3.14),
-        carrier_from_marker in transform::<Base, Marker>(2.0, 0.0..3.14),
+        camera_from_root in transform::<Camera, EndEffector>(0.2, 0.0..PI),
+        carrier_from_marker in transform::<Base, Marker>(2.0, 0.0..PI),
         robot in poses(),
     ) {
         let truth = HandEye { camera_from_root, carrier_from_marker };
@@ -74,9 +75,9 @@ proptest! {
     /// Turning the base's axes turns the answer along.
     #[test]
     fn answers_follow_the_frames(
-        camera_from_root in transform::<Camera, Base>(2.0, 0.0..3.14),
-        carrier_from_marker in transform::<EndEffector, Marker>(0.2, 0.0..3.14),
-        moved in transform::<Base, Base>(1.0, 0.0..3.14),
+        camera_from_root in transform::<Camera, Base>(2.0, 0.0..PI),
+        carrier_from_marker in transform::<EndEffector, Marker>(0.2, 0.0..PI),
+        moved in transform::<Base, Base>(1.0, 0.0..PI),
         robot in poses(), seed in 0_u64..1_000_000,
     ) {
         let truth = HandEye { camera_from_root, carrier_from_marker };

@@ -53,7 +53,6 @@ fn real_poses_give_the_expected_camera() {
         let refined = refine_poses(&pairs, start, 0.05).unwrap();
         let (metres, radians) = refined.camera_from_root.inverse().distance_to(&expected);
         let spread = spread_m(&refined, &pairs);
-        eprintln!("{metres} m, {} degrees, spread {spread} m", radians.to_degrees());
         assert!(metres < 0.002, "{metres} m");
         assert!(radians.to_degrees() < 0.2, "{} degrees", radians.to_degrees());
         for answer in &answers {

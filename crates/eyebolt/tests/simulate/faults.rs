@@ -148,6 +148,7 @@ fn faults_are_named_with_their_units() {
         time_skew_s: 0.05,
         one_joint_offset: 1.5f64.to_radians(),
         link_length_m: 0.006,
+        base_lower_m: 0.04,
         wrist_only: true,
         occlusion: 0.25,
         bump: Some([0.02, 3f64.to_radians()]),
@@ -168,7 +169,7 @@ fn faults_are_named_with_their_units() {
         "depth_scale": 1.01, "depth_offset_mm": 3.0, "focal_scale": 0.99, "centre_x_px": 1.0,
         "centre_y_px": 2.0, "joint_offset_deg": 1.0, "joint_offset_sigma_deg": 0.5, "backlash_deg": 2.0,
         "time_skew_ms": 50.0, "bump_mm": 20.0, "bump_deg": 3.0, "one_joint_offset_deg": 1.5,
-        "link_length_mm": 6.0, "wrist_only": 1.0, "occlusion": 0.25, "gloss": 0.2, "far_room": 1.0,
+        "link_length_mm": 6.0, "base_lower_mm": 40.0, "wrist_only": 1.0, "occlusion": 0.25, "gloss": 0.2, "far_room": 1.0,
         "wander_mm": 10.0, "tool_mm": 100.0, "cable": 1.0, "cover": 1.0, "passers_by": 2.0,
         "other_rooms": 0.5, "second_arm_moving": 1.0, "fixed_pattern": 1.5,
     });
