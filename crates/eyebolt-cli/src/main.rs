@@ -1,5 +1,6 @@
 //! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
 
+mod batch;
 mod calibrate;
 mod convert;
 mod demo;
@@ -25,7 +26,7 @@ mod study;
 mod summary;
 mod train;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ending::{Ending, causes};
 use std::process::ExitCode;
 
@@ -53,6 +54,12 @@ enum Command {
     Demo(demo::Arguments),
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(Box<calibrate::Arguments>),
+    /// Calibrate many recordings into a folder, by as many machines as there are, and sum up
+    ///
+    /// What is in the folder already is not calibrated again: a run that was ended, or killed, goes on with the same
+    /// command. A recording that cannot be calibrated has a line that says why. Exit status 0: every recording of this run
+    /// has its line, whatever that says.
+    Batch(Box<batch::Arguments>),
     /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
     Info(info::Arguments),
     /// Write a recording.toml from what lies in a folder, for you to check
@@ -103,11 +110,14 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let Arguments { command, verbose } = Arguments::parse();
+    let matches = Arguments::command().get_matches();
+    let Arguments { command, verbose } =
+        Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     logging::start(verbose);
     let ending = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments, &matches),
         Command::Info(arguments) => info::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::ToRecord(arguments) => record_command::run(&arguments),

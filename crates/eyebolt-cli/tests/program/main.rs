@@ -1,6 +1,7 @@
 //! The program from outside: exit status, files and what it says.
 
 mod answer;
+mod batch;
 mod convert;
 mod demo;
 mod desk;
