@@ -2,6 +2,7 @@
 
 mod batch;
 mod calibrate;
+mod completions;
 mod convert;
 mod demo;
 mod ending;
@@ -12,6 +13,7 @@ mod init;
 mod inputs;
 mod label;
 mod logging;
+mod man;
 mod names;
 mod output;
 mod pose;
@@ -107,6 +109,13 @@ enum Command {
     Label(Box<label::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
+    /// Print what makes a shell complete commands and flags: `eyebolt completions bash > FILE`
+    ///
+    /// Bash reads ~/.local/share/bash-completion/completions/eyebolt, fish ~/.config/fish/completions/eyebolt.fish, and zsh a
+    /// file _eyebolt in a folder of its fpath.
+    Completions(completions::Arguments),
+    /// Print the manual page of the program or of a command, or write all of them
+    Man(man::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -131,6 +140,8 @@ fn main() -> ExitCode {
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(&arguments, Arguments::command()),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

@@ -22,6 +22,7 @@ mod recording;
 mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
+mod shell;
 mod simulate;
 mod simulate_flags;
 mod study;
