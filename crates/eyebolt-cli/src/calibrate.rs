@@ -1,17 +1,18 @@
 //! `eyebolt calibrate`.
 
-mod learned;
+pub mod learned;
+mod limits;
 mod marker;
 
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
 use crate::names;
 use crate::output::{self, Destination, STDOUT};
 use crate::progress::{Bar, leaves};
 use crate::summary;
 use anyhow::{Result, bail};
 use eyebolt::answer::Answer;
-use eyebolt::calibrate::{Deviation, Limits, Verdict};
+use eyebolt::calibrate::Verdict;
 use eyebolt::observations::Configuration;
 use eyebolt::pipeline::{Failure, Outcome, Request};
 use eyebolt::progress::Step;
@@ -19,6 +20,7 @@ use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
 use eyebolt_recording::Recording;
 use learned::LearnedArguments;
+pub use limits::LimitArguments;
 use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt calibrate`.
@@ -50,12 +52,8 @@ pub struct Arguments {
     /// Replace existing files
     #[arg(long)]
     force: bool,
-    /// Expected error up to which an answer is trusted, millimetres [default: 10]
-    #[arg(long, value_name = "MM", value_parser = positive)]
-    max_error_mm: Option<f64>,
-    /// Expected error up to which an answer is trusted, degrees [default: 0.6]
-    #[arg(long, value_name = "DEG", value_parser = positive)]
-    max_error_deg: Option<f64>,
+    #[command(flatten)]
+    limits: LimitArguments,
     /// Seed of the search; the same seed gives the same bytes on any number of threads
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -92,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             use_masks: !arguments.no_masks,
             most_configurations: usize::from(arguments.max_configurations),
         },
-        limits: limits(arguments),
+        limits: arguments.limits.limits(),
         seed: arguments.seed,
         ..Request::new(recording.source(), &arm)
     };
@@ -113,12 +111,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         None => Ok(Vec::new()),
     };
     let timing = bar.finish();
-    let mut answer = Answer::new(&request, &outcome);
+    let mut answer = answer(&arguments.robot, &request, &outcome);
     answer.timing_ms = arguments.timing.then_some(timing);
-    answer.stated_joints = arguments.robot.stated_joints().collect();
-    for part in &mut answer.left_out {
-        *part = names::in_flags(part);
-    }
     let trusted = outcome.calibration.verdict == Verdict::Trusted;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
     let report = save_report(arguments, &answer, &outcome, &pictures);
@@ -157,17 +151,14 @@ pub(crate) fn named(error: Failure, recording: &Path) -> anyhow::Error {
     }
 }
 
-fn limits(arguments: &Arguments) -> Limits {
-    let default = Limits::default();
-    let expected = Deviation {
-        translation_m: arguments
-            .max_error_mm
-            .map_or(default.expected.translation_m, |mm| 1e-3 * mm),
-        rotation_rad: arguments
-            .max_error_deg
-            .map_or(default.expected.rotation_rad, f64::to_radians),
-    };
-    Limits { expected, ..default }
+/// What the file says of `outcome`, and of the flags that led to it.
+pub(crate) fn answer(robot: &RobotArguments, request: &Request<'_>, outcome: &Outcome) -> Answer {
+    let mut answer = Answer::new(request, outcome);
+    answer.stated_joints = robot.stated_joints().collect();
+    for part in &mut answer.left_out {
+        *part = names::in_flags(part);
+    }
+    answer
 }
 
 /// Better told now than after the work: pictures that are in the way, or a folder that is none.
@@ -203,9 +194,14 @@ fn check_report(report: &Path, destination: &Destination, force: bool) -> Result
 
 /// Every configuration with the posed arm over it, if anybody wants them.
 fn draw(arguments: &Arguments, recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
-    if arguments.save_overlay.is_none() && arguments.report.is_none() {
-        return Vec::new();
+    match arguments.save_overlay.is_some() || arguments.report.is_some() {
+        true => pictures(recording, outcome),
+        false => Vec::new(),
     }
+}
+
+/// Every configuration with the posed arm over it.
+pub(crate) fn pictures(recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
     let color = |configuration: &Configuration| {
         let first = configuration.frames.first()?;
         let index = recording.frame_names().iter().position(|name| name == first)?;
@@ -244,7 +240,17 @@ fn save_report(
 ) -> Result<()> {
     let Some(path) = &arguments.report else { return Ok(()) };
     let recording = arguments.recording.recording.display().to_string();
-    let context =
-        Context { recording: &recording, pictures, call_input: names::flag, ..Context::default() };
-    output::write_whole(path, html(answer, outcome, &context).as_bytes(), arguments.force)
+    let page = page(&recording, answer, outcome, pictures);
+    output::write_whole(path, page.as_bytes(), arguments.force)
+}
+
+/// The page on `answer`.
+pub(crate) fn page(
+    recording: &str,
+    answer: &Answer,
+    outcome: &Outcome,
+    pictures: &[Picture],
+) -> String {
+    let context = Context { recording, pictures, call_input: names::flag, ..Context::default() };
+    html(answer, outcome, &context)
 }

@@ -183,6 +183,12 @@ impl RobotArguments {
         self.arm_of(robot, recording)
     }
 
+    /// Better told once than of each recording: a robot that is named and cannot be read.
+    pub fn check_named(&self) -> Result<()> {
+        self.robot.as_ref().map(|name| self.description.named(name)).transpose()?;
+        Ok(())
+    }
+
     /// `recording` with joints as the flags have them, which name joints of `arm`.
     pub fn noted(&self, recording: Recording, arm: &Arm) -> Result<Recording> {
         let notes = JointNotes { prefix: self.joint_prefix.clone(), positions: self.joint.clone() };

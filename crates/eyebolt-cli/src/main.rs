@@ -1,6 +1,8 @@
 //! The eyebolt program: the calibration between a depth camera and a robot arm, without markers.
 
+mod batch;
 mod calibrate;
+mod completions;
 mod convert;
 mod demo;
 mod ending;
@@ -11,6 +13,7 @@ mod init;
 mod inputs;
 mod label;
 mod logging;
+mod man;
 mod names;
 mod output;
 mod pose;
@@ -25,7 +28,7 @@ mod study;
 mod summary;
 mod train;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ending::{Ending, causes};
 use std::process::ExitCode;
 
@@ -53,6 +56,12 @@ enum Command {
     Demo(demo::Arguments),
     /// Find the pose of the camera from a recording of the arm in a few configurations
     Calibrate(Box<calibrate::Arguments>),
+    /// Calibrate many recordings into a folder, by as many machines as there are, and sum up
+    ///
+    /// What is in the folder already is not calibrated again: a run that was ended, or killed, goes on with the same
+    /// command. A recording that cannot be calibrated has a line that says why. Exit status 0: every recording of this run
+    /// has its line, whatever that says.
+    Batch(Box<batch::Arguments>),
     /// Look at a recording: what is in it, what fits the robot, and what to do about what does not
     Info(info::Arguments),
     /// Write a recording.toml from what lies in a folder, for you to check
@@ -100,14 +109,24 @@ enum Command {
     Label(Box<label::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
+    /// Print what makes a shell complete commands and flags: `eyebolt completions bash > FILE`
+    ///
+    /// Bash reads ~/.local/share/bash-completion/completions/eyebolt, fish ~/.config/fish/completions/eyebolt.fish, and zsh a
+    /// file _eyebolt in a folder of its fpath.
+    Completions(completions::Arguments),
+    /// Print the manual page of the program or of a command, or write all of them
+    Man(man::Arguments),
 }
 
 fn main() -> ExitCode {
-    let Arguments { command, verbose } = Arguments::parse();
+    let matches = Arguments::command().get_matches();
+    let Arguments { command, verbose } =
+        Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     logging::start(verbose);
     let ending = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments, &matches),
         Command::Info(arguments) => info::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::ToRecord(arguments) => record_command::run(&arguments),
@@ -121,6 +140,8 @@ fn main() -> ExitCode {
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(&arguments, Arguments::command()),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

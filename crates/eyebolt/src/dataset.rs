@@ -42,6 +42,7 @@ pub use frame::DatasetFrame;
 pub use index::{FileLine, FrameKey, IndexLine, PixelCounts};
 pub use merge::{Merged, merge};
 pub use reader::{Dataset, FrameEntry};
+pub(crate) use recording::file_safe;
 pub use recording::{Calibrated, RecordingEntry};
 pub use run::{LabelRun, Labelled, LeftOut};
 pub use shard::Shard;

@@ -1,6 +1,7 @@
 //! The stages of eyebolt.
 
 pub mod answer;
+pub mod batch;
 pub mod calibrate;
 mod connected;
 pub mod dataset;

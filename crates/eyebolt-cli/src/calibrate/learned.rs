@@ -61,6 +61,17 @@ fn model(arguments: &LearnedArguments) -> Result<&Path> {
     }
 }
 
+/// Better told once than of each recording: a model that is missing.
+pub fn check(arguments: &LearnedArguments) -> Result<()> {
+    let folder = match (arguments.method, &arguments.model) {
+        (Method::Paper, _) => Some(model(arguments)?),
+        (Method::Best, Some(folder)) => Some(folder.as_path()),
+        (Method::Best | Method::Nothing, _) => None,
+    };
+    folder.map(Segmenter::open).transpose()?;
+    Ok(())
+}
+
 /// Calibrates as `arguments` ask for.
 pub fn calibrate(
     arguments: &LearnedArguments,

@@ -1,6 +1,7 @@
 //! The program from outside: exit status, files and what it says.
 
 mod answer;
+mod batch;
 mod convert;
 mod demo;
 mod desk;
@@ -23,6 +24,7 @@ mod reproduce;
 mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
+mod shell;
 mod simulate;
 mod simulate_flags;
 mod study;

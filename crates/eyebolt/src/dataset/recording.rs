@@ -93,7 +93,7 @@ impl RecordingEntry {
 const MOST_NAME: usize = 60;
 
 /// `name` of letters, digits and dashes.
-fn file_safe(name: &str) -> String {
+pub(crate) fn file_safe(name: &str) -> String {
     let safe = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '_' };
     name.chars().take(MOST_NAME).map(safe).collect()
 }

@@ -5,6 +5,7 @@
 
 mod advice;
 mod base64;
+mod batch;
 mod leftovers;
 mod pictures;
 mod plots;
@@ -17,6 +18,7 @@ mod template;
 mod uncertainty;
 
 pub use advice::remedies;
+pub use batch::batch_page;
 pub use tables::tables_page;
 
 use super::picture::Picture;

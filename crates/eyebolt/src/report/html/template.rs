@@ -4,7 +4,7 @@ use super::svg::signed;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
 
 /// Texts that stand in the page as they are, and those that are filled in.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     ("page.html", include_str!("page.html")),
     ("verdict.html", include_str!("verdict.html")),
     ("transform.html", include_str!("transform.html")),
@@ -12,6 +12,7 @@ const FILES: [(&str, &str); 11] = [
     ("accuracy.html", include_str!("accuracy.html")),
     ("fit.html", include_str!("fit.html")),
     ("made.html", include_str!("made.html")),
+    ("batch.html", include_str!("batch.html")),
     ("tables.html", include_str!("tables.html")),
     ("style.css", include_str!("style.css")),
     ("page.js", include_str!("page.js")),
