@@ -38,8 +38,8 @@ pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
     ChangePoint, Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView,
-    Refinement, Residual, Start, StopReason, Trust, ViewFit, change_point, refine, residuals,
-    settle,
+    Refinement, Residual, SHIFTS, ShiftDeviations, Start, StopReason, Trust, ViewEvidence, ViewFit,
+    change_point, refine, residuals, settle, view_evidence,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

@@ -14,6 +14,7 @@ mod settle;
 mod start;
 mod summary;
 mod system;
+mod view_evidence;
 
 pub use change_point::{ChangePoint, change_point};
 pub use gauss_newton::refine;
@@ -23,3 +24,4 @@ pub use outcome::{Fit, Refinement, StopReason, ViewFit};
 pub use residuals::{Residual, residuals};
 pub use settle::settle;
 pub use start::{OffsetDeviations, OffsetPrior, RefineOptions, RefineView, Start, Trust};
+pub use view_evidence::{SHIFTS, ShiftDeviations, ViewEvidence, view_evidence};

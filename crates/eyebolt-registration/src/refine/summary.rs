@@ -76,7 +76,7 @@ fn joint_sigma(open: Option<&UnderOpenPrior>, state: &State) -> [f64; MOST_JOINT
     })
 }
 
-fn view_fit(view: &ViewFactors, deviations: &[f64; EVIDENCE_KINDS]) -> ViewFit {
+pub(super) fn view_fit(view: &ViewFactors, deviations: &[f64; EVIDENCE_KINDS]) -> ViewFit {
     let fits = std::array::from_fn(|kind| {
         let mut sizes: Vec<f64> = view.factors[kind].iter().map(|f| f.residual.abs()).collect();
         let inliers = sizes.iter().filter(|size| **size < 3.0 * deviations[kind]).count();
