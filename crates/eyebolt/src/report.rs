@@ -9,9 +9,7 @@ mod overlay;
 mod picture;
 mod residual;
 
-pub use html::{Context, TruthComparison, html, remedies, tables_page};
-pub use labelled::{classes, labelled};
 pub use html::{Context, TruthComparison, batch_page, html, remedies, tables_page};
-pub use labelled::labelled;
+pub use labelled::{classes, labelled};
 pub use overlay::{Drawn, overlay, overlays};
 pub use picture::Picture;
