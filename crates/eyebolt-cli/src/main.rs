@@ -14,6 +14,7 @@ mod inputs;
 mod label;
 mod logging;
 mod man;
+mod monitor;
 mod names;
 mod output;
 mod pose;
@@ -35,7 +36,7 @@ use std::process::ExitCode;
 /// Calibrates a depth camera against a robot arm: no markers, no initial guess, nobody labelling.
 ///
 /// Exit status: 0 trusted (of info: ready), 1 something could not be read or written, 2 wrong usage,
-/// 3 refused (of info: not ready).
+/// 3 refused (of info: not ready; of monitor: something moved).
 #[derive(Debug, Parser)]
 #[command(name = "eyebolt", version, max_term_width = 100)]
 struct Arguments {
@@ -107,6 +108,11 @@ enum Command {
     /// and put into a folder that NumPy opens. What is there already is not labelled again, and several
     /// machines may fill one folder, each a shard.
     Label(Box<label::Arguments>),
+    /// Say whether a calibration is still true: frames of the resting arm against it, one by one
+    ///
+    /// An alarm says how far the arm is from where the calibration has it, and what moved, as far as that can be told. A
+    /// new calibration is proposed, never applied. Exit status 3 with an alarm.
+    Monitor(Box<monitor::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
     /// Print what makes a shell complete commands and flags: `eyebolt completions bash > FILE`
@@ -139,6 +145,7 @@ fn main() -> ExitCode {
         Command::Segment(arguments) => segment::run(&arguments),
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
+        Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
         Command::Man(arguments) => man::run(&arguments, Arguments::command()),

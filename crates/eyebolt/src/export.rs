@@ -34,5 +34,5 @@ pub use format::Format;
 pub use frame_name::{BadFrameName, FrameName, Named};
 pub use note::Note;
 pub use placement::{Placement, Wanted};
-pub use saved::{Corrections, MAX_CALIBRATION_BYTES, SavedCalibration};
+pub use saved::{Corrections, MAX_CALIBRATION_BYTES, SavedCalibration, Uncertainty};
 pub use static_tree::{MAX_TREE_BYTES, StaticEdge, StaticTree};

@@ -17,6 +17,7 @@ pub mod label;
 mod made_up;
 pub mod marker_answer;
 pub mod markers;
+pub mod monitor;
 pub mod observations;
 mod other_unit;
 pub mod paper;

@@ -11,7 +11,7 @@ fn shell(shell: &str, arguments: &[&str], script: &str) -> Option<String> {
     let mut command = Command::new(shell);
     command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let Ok(mut running) = command.spawn() else {
-        eprintln!("SKIPPED: there is no {shell} here");
+        let _ = writeln!(std::io::stderr(), "SKIPPED: there is no {shell} here");
         return None;
     };
     running.stdin.take().unwrap().write_all(script.as_bytes()).unwrap();

@@ -3,8 +3,10 @@
 mod corrections;
 mod field;
 mod pose;
+mod uncertainty;
 
 pub use corrections::Corrections;
+pub use uncertainty::Uncertainty;
 
 use super::error::ExportError;
 use super::file::read_text;
@@ -17,6 +19,7 @@ use field::{REMEDY, missing};
 use pose::RawPose;
 use serde::Deserialize;
 use std::path::Path;
+use uncertainty::RawUncertainty;
 
 /// Largest calibration file, bytes: a recording of thousands of frames makes a few MiB.
 pub const MAX_CALIBRATION_BYTES: u64 = 16 << 20;
@@ -34,6 +37,7 @@ pub struct SavedCalibration {
     refused: Option<Vec<String>>,
     base_from_camera: Option<Transform<Base, Camera>>,
     corrections: Corrections,
+    uncertainty: Uncertainty,
     tree: StaticTree,
     tree_problem: Option<String>,
 }
@@ -102,6 +106,7 @@ impl SavedCalibration {
         }
         let raw: Raw = json(file, text)?;
         let corrections: RawCorrections = json(file, text)?;
+        let uncertainty: RawUncertainty = json(file, text)?;
         let frames = raw.frames.ok_or_else(|| missing(file, "frames"))?;
         // What others publish is no reason to withhold the pose; whoever exports it is told.
         let (tree, tree_problem) = match tree(file, raw.static_transforms) {
@@ -120,6 +125,7 @@ impl SavedCalibration {
             refused: refused(file, raw.verdict, raw.reasons)?,
             base_from_camera: pose::agreed(file, raw.camera_from_base, raw.base_from_camera)?,
             corrections: corrections.check(file)?,
+            uncertainty: uncertainty.check(file)?,
             file: file.to_owned(),
         })
     }
@@ -132,6 +138,11 @@ impl SavedCalibration {
     /// What it found to be off in what was recorded and described.
     pub fn corrections(&self) -> &Corrections {
         &self.corrections
+    }
+
+    /// How far off it expects to be.
+    pub fn uncertainty(&self) -> &Uncertainty {
+        &self.uncertainty
     }
 
     /// The frames that do not move against the camera's or the base, as the recording told them.

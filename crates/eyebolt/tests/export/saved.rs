@@ -186,3 +186,26 @@ fn what_was_found_to_be_off_is_read_in_si_units() {
     json["depth_scale_error"] = json!(7.0);
     assert!(error(&json).contains("depth_scale_error: 7 is more than 0.5"), "{}", error(&json));
 }
+
+#[test]
+fn how_far_off_it_may_be_is_read_and_checked() {
+    let identity: Vec<Vec<f64>> =
+        (0..6).map(|i| (0..6).map(|j| if i == j { 1e-6 } else { 0.0 }).collect()).collect();
+    let mut json = with("/covariance", Some(json!(identity)));
+    json["workspace_in_base_m"] = json!([0.1, 0.2, 0.3]);
+    json["configurations"] = json!([
+        { "configuration": 0, "used": true, "residual_mm": 2.0 },
+        { "configuration": 0, "used": true, "residual_mm": 2.0 },
+        { "configuration": 1, "used": true, "residual_mm": 4.0 },
+        { "configuration": 2, "used": false, "residual_mm": 90.0 },
+    ]);
+    let read = parsed(&json);
+    let told = read.uncertainty();
+    assert_eq!(told.covariance.unwrap()[(3, 3)], 1e-6);
+    assert_eq!(told.workspace_in_base.unwrap().coords.as_slice(), [0.1, 0.2, 0.3]);
+    assert_eq!((told.residual_m, told.configurations), (Some(0.002), 2));
+    json["covariance"][0][1] = json!(1e-3);
+    assert!(error(&json).contains("covariance"), "{}", error(&json));
+    json["covariance"][1][0] = json!(1e-3);
+    assert!(error(&json).contains("covariance"), "{}", error(&json));
+}

@@ -12,6 +12,7 @@ mod joint_offsets;
 mod lab;
 mod labels;
 mod markers;
+mod monitor;
 mod motion;
 mod other_unit;
 mod presets;
