@@ -159,7 +159,7 @@ fn numbers_that_cannot_be() {
         ("label", 17, &[9], &["label: 9 is the number of no class"]),
         ("keypoint", 17, &[200], &["keypoint: 200", "there are 8"]),
         ("camera_from_end_effector", 8, &far, &["camera_from_end_effector", "rigid"]),
-        ("joint_positions", 0, &f64::NAN.to_le_bytes(), &["joint_positions: NaN"]),
+        ("joint_positions", 0, &f64::INFINITY.to_le_bytes(), &["joint_positions: inf"]),
         ("camera_matrix", 0, &(-1.0_f64).to_le_bytes(), &["camera_matrix", "fx = -1"]),
     ];
     for (array, at, bytes, words) in cases {
@@ -167,7 +167,11 @@ fn numbers_that_cannot_be() {
         assert_says(&error, words);
         assert_says(&error, &["Remove the file and label the recording again"]);
     }
-    spoilt(|_| {}).unwrap();
+    let all = spoilt(|_| {}).unwrap().joints;
+    // Not a number is a joint that nobody recorded.
+    let nan = f64::NAN.to_le_bytes();
+    let fewer = spoilt(|path| overwrite(path, "joint_positions", 0, &nan)).unwrap().joints;
+    assert_eq!(fewer.len() + 1, all.len());
 }
 
 /// Made by `fuzz/make_seeds.py` with `numpy.savez`, which numbers in its local headers another way.
