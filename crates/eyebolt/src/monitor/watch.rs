@@ -36,7 +36,7 @@ pub struct Monitor<'a> {
 
 /// Variances of one view are so many times what the noise model says: errors of shapes, of depth at edges and of joints go
 /// together over whole links of a posture.
-const INFLATION: f64 = 16.0;
+const INFLATION: f64 = 4.0;
 /// A view that tells fewer nats of where the pose is, of what may have moved, tells nothing: one for each number.
 const LEAST_GAIN: f64 = 6.0;
 /// A view where more of the arm's pixels show what is behind it has the arm elsewhere, and not nearby.
