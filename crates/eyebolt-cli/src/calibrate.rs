@@ -15,7 +15,7 @@ use eyebolt::answer::Answer;
 use eyebolt::calibrate::Verdict;
 use eyebolt::observations::Configuration;
 use eyebolt::pipeline::{Failure, Outcome, Request};
-use eyebolt::progress::Step;
+use eyebolt::progress::{Progress, Step};
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
 use eyebolt_recording::Recording;
@@ -98,12 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         let path = &arguments.recording.recording;
         return marker::run(&arguments.marker, target, &request, path, &destination, &bar);
     }
-    let outcome =
-        learned::calibrate(&arguments.learned, &arguments.recording.recording, &request, &bar);
-    let outcome = outcome.map_err(|error| match error.downcast() {
-        Ok(failure) => named(failure, &arguments.recording.recording),
-        Err(other) => other,
-    })?;
+    let outcome = outcome(&arguments.learned, &arguments.recording.recording, &request, &bar)?;
     Step::Report.begin(&bar)?;
     let pictures = draw(arguments, &recording, &outcome);
     let saved = match &arguments.save_overlay {
@@ -129,6 +124,20 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     saved.and(report)?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
+}
+
+/// Calibrates the recording at `path` by the way that is asked for; errors say which recording it was.
+pub(crate) fn outcome(
+    arguments: &LearnedArguments,
+    path: &Path,
+    request: &Request<'_>,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    let outcome = learned::calibrate(arguments, path, request, progress);
+    outcome.map_err(|error| match error.downcast() {
+        Ok(failure) => named(failure, path),
+        Err(other) => other,
+    })
 }
 
 /// The error, with the recording where that is what does not fit and the error names no file.

@@ -2,7 +2,7 @@
 
 use super::arguments::Arguments;
 use super::folder::Folder;
-use crate::calibrate::{answer, learned, named, page, pictures};
+use crate::calibrate::{answer, outcome, page, pictures};
 use crate::ending::causes;
 use crate::progress::Bar;
 use anyhow::Result;
@@ -55,11 +55,7 @@ fn find(arguments: &Arguments, recording: &str) -> Result<Found> {
         seed: arguments.seed,
         ..Request::new(opened.source(), &arm)
     };
-    let outcome = learned::calibrate(&arguments.learned, path, &request, &bar);
-    let outcome = outcome.map_err(|error| match error.downcast() {
-        Ok(failure) => named(failure, path),
-        Err(other) => other,
-    })?;
+    let outcome = outcome(&arguments.learned, path, &request, &bar)?;
     let answer = answer(&arguments.robot, &request, &outcome);
     let report = arguments.report.then(|| {
         let pictures = pictures(&opened, &outcome);
