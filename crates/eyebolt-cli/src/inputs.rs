@@ -119,10 +119,6 @@ impl BagArguments {
 }
 
 impl RecordingArguments {
-    pub fn open(&self) -> Result<Recording> {
-        Ok(Recording::open(&self.recording, &self.bag.options())?)
-    }
-
     /// Opens it, as one of `robot`, if that is named.
     pub fn open_of(&self, robot: &RobotArguments) -> Result<Recording> {
         Ok(Recording::open(&self.recording, &self.bag.options_of(robot))?)

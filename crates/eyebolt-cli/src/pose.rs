@@ -8,10 +8,9 @@ use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod};
+use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
-use eyebolt::segment::Segmenter;
 use eyebolt_recording::Recording;
 use eyebolt_robot::JointPositions;
 use lines::Line;
@@ -74,14 +73,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         bail!("{}: there is no frame in it", path.display());
     }
     let arm = arguments.robot.arm(path, &recording)?;
-    let mut segmenter = Segmenter::open(&arguments.model)?;
-    if !segmenter.tells_end_effector() {
-        bail!(
-            "{}: the model tells the arm, but not its end-effector. Teach one for this robot with eyebolt train",
-            arguments.model.display()
-        );
-    }
     let shape = EndEffectorShape::of(&arm, &arguments.cache.open())?;
+    let mut recognizer = Recognizer::open(&arguments.model, shape.clone())?;
     let mut estimator = PoseEstimator::open(&arguments.model, shape, arguments.method)?;
     estimator.refines = !arguments.no_icp;
     let images = FrameImages::of(recording.source())?;
@@ -94,8 +87,15 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             continue;
         };
         let joints = joints(arguments, &recording, index)?;
-        let label = segmenter.segment(&depth, images.camera())?.label;
-        let found = estimator.estimate(&depth, images.camera(), &label, joints.as_ref())?;
+        let posture = joints.as_ref().map(|joints| estimator.shape().posture(joints));
+        let seen = recognizer.recognize(&depth, images.camera(), posture.as_slice())?;
+        let found = match (arguments.method, arguments.no_icp) {
+            (PoseMethod::Fused, false) => seen.answer,
+            _ => {
+                let label = &seen.segmentation.label;
+                estimator.estimate(&depth, images.camera(), label, joints.as_ref())?
+            }
+        };
         let line = Line::of(name, arguments.method, joints.is_some(), found);
         if arguments.json {
             output::say(&line.json());

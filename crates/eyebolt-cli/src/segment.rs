@@ -1,9 +1,10 @@
 //! `eyebolt segment`.
 
 mod cloud;
+mod teller;
 
 use crate::ending::Ending;
-use crate::inputs::{RecordingArguments, use_threads};
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
 use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
@@ -11,10 +12,11 @@ use cloud::CloudForm;
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
 use eyebolt::report::classes;
-use eyebolt::segment::{ARM, END_EFFECTOR, Segmenter};
+use eyebolt::segment::{ARM, END_EFFECTOR};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
-use eyebolt_recording::write_npy;
+use eyebolt_recording::{Recording, write_npy};
 use std::path::PathBuf;
+use teller::Teller;
 
 /// Options of `eyebolt segment`.
 #[derive(Debug, clap::Args)]
@@ -24,6 +26,12 @@ pub struct Arguments {
     /// Folder of a model that eyebolt train made, such as models/panda
     #[arg(long, value_name = "FOLDER")]
     model: PathBuf,
+    #[command(flatten)]
+    robot: RobotArguments,
+    /// Leave the labels as the networks have them; otherwise the pose of the end-effector that explains them says which
+    /// pixels are of it
+    #[arg(long)]
+    networks_alone: bool,
     /// Folder for label_FRAME.npy: 0 background, 1 arm, 2 end-effector, 255 no depth
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
@@ -39,13 +47,15 @@ pub struct Arguments {
     /// Threads to use; otherwise one for each core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
-    let mut segmenter = Segmenter::open(&arguments.model)?;
-    let recording = arguments.recording.open()?;
+    let recording = arguments.recording.open_of(&arguments.robot)?;
+    let mut teller = teller(arguments, &recording)?;
     let names = recording.frame_names().to_vec();
     let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
     let more = More { arguments };
@@ -65,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             left_out += 1;
             continue;
         };
-        let found = segmenter.segment(&depth, images.camera())?;
+        let found = teller.label(&depth, images.camera())?;
         let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
         arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
         hand += usize::from(count(END_EFFECTOR) > 0);
@@ -75,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     drop(bar);
     let (written, folder) = (names.len() - left_out, arguments.output.display());
-    let hand = match segmenter.tells_end_effector() {
+    let hand = match teller.tells_end_effector() {
         true => format!(", the end-effector in {hand}"),
         false => String::new(),
     };
@@ -84,6 +94,15 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         output::complain(&format!("note: {left_out} damaged frames left out"));
     }
     Ok(Ending::Done)
+}
+
+fn teller(arguments: &Arguments, recording: &Recording) -> Result<Teller> {
+    arguments.robot.check_named()?;
+    if arguments.networks_alone {
+        return Teller::networks(&arguments.model);
+    }
+    let arm = arguments.robot.arm(&arguments.recording.recording, recording);
+    Teller::posed(&arguments.model, arm, &arguments.cache.open())
 }
 
 /// What is written beside labels.

@@ -13,6 +13,7 @@ use crate::refine::StopReason;
 use crate::robust::{geman_mcclure, median};
 use eyebolt_geometry::{Base, Camera, Transform};
 use nalgebra::{Matrix6, Point3, UnitQuaternion, Vector6};
+use std::collections::BTreeMap;
 
 /// How a shape is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +109,51 @@ pub fn icp(
     found
 }
 
+/// Which points err together: of each point, the number of its cluster.
+#[derive(Clone, Copy, Debug)]
+pub enum Errors<'a> {
+    /// As the residuals show: those of a cluster may err together, those of different ones do not.
+    AsSeen(&'a [u32]),
+    /// By this standard deviation, metres, all points of a cluster alike, whatever is left of it after the fit: a bias of a
+    /// camera that a pose takes up does not show.
+    Alike(&'a [u32], f64),
+}
+
+/// Covariance of what [`icp`] found, of the shape's translation and of its turn about its origin, both in the camera's axes,
+/// if points err as `errors` say (sandwich; Liang and Zeger, Biometrika 1986). `None` where the points do not tell all of the
+/// pose, or those of fewer than seven clusters take part, of which residuals show nothing.
+pub fn clustered_covariance(
+    (arm, posture): (&ArmModel, &Posture),
+    points: &[Point3<f32>],
+    errors: Errors<'_>,
+    fit: &Icp,
+    options: &IcpOptions,
+) -> Option<Matrix6<f64>> {
+    let scale_m = options.least_scale_m.max(2.0 * fit.deviation_m);
+    let (Errors::AsSeen(cluster) | Errors::Alike(cluster, _)) = errors;
+    let mut gradients: BTreeMap<u32, Vector6<f64>> = BTreeMap::new();
+    let mut information = Matrix6::zeros();
+    each(arm, posture, points, &fit.camera_from_base, scale_m, |at, row| {
+        information += row.weight * row.jacobian * row.jacobian.transpose();
+        let size_m = match errors {
+            Errors::AsSeen(_) => row.residual,
+            Errors::Alike(_, deviation_m) => deviation_m,
+        };
+        *gradients.entry(cluster[at]).or_default() += row.weight * size_m * row.jacobian;
+    });
+    let factor = match errors {
+        Errors::Alike(..) => 1.0,
+        // As many numbers are fitted.
+        Errors::AsSeen(_) => {
+            let spare = gradients.len().checked_sub(6).filter(|spare| *spare > 0)?;
+            gradients.len() as f64 / spare as f64
+        }
+    };
+    let scatter: Matrix6<f64> = gradients.values().map(|g| g * g.transpose()).sum();
+    let inverse = information.try_inverse()?;
+    Some(factor * inverse * scatter * inverse)
+}
+
 /// Normal equations at a pose, and the sizes of the residuals of the points that take part.
 fn gather(
     arm: &ArmModel,
@@ -117,14 +163,38 @@ fn gather(
     scale_m: f64,
     sizes: &mut Vec<f64>,
 ) -> NormalEquations<6> {
+    let mut sum = NormalEquations::default();
+    sizes.clear();
+    each(arm, posture, points, pose, scale_m, |_, Row { jacobian, residual, weight }| {
+        sum.add_lower(&jacobian, residual, weight, weight);
+        sizes.push(residual.abs());
+    });
+    sum.mirror();
+    sum
+}
+
+/// What a point says of the pose.
+struct Row {
+    jacobian: Vector6<f64>,
+    residual: f64,
+    weight: f64,
+}
+
+/// Hands on what each of the points that take part says.
+fn each(
+    arm: &ArmModel,
+    posture: &Posture,
+    points: &[Point3<f32>],
+    pose: &Transform<Camera, Base>,
+    scale_m: f64,
+    mut take: impl FnMut(usize, Row),
+) {
     let limit_m = (REACH * scale_m) as f32;
     let inverse = pose.inverse().isometry().cast::<f32>();
     let turn = pose.rotation().to_rotation_matrix();
     let origin = pose.translation_m();
-    let mut sum = NormalEquations::default();
     let mut last = 0;
-    sizes.clear();
-    for point in points {
+    for (at, point) in points.iter().enumerate() {
         let in_base = inverse * point;
         let Some(nearest) = posture.nearest_within(arm, &in_base, limit_m, last) else { continue };
         last = nearest.link;
@@ -137,11 +207,8 @@ fn gather(
         let weight = geman_mcclure(residual, scale_m);
         // The shape moves, not the point: the sign turns.
         let jacobian = Vector6::from(moved_by_base(&-normal, &seen, &origin));
-        sum.add_lower(&jacobian, residual, weight, weight);
-        sizes.push(residual.abs());
+        take(at, Row { jacobian, residual, weight });
     }
-    sum.mirror();
-    sum
 }
 
 /// The pose after a step: a translation, and a turn about the shape's origin.

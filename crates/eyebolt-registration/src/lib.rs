@@ -32,7 +32,10 @@ pub use cache::LinkCache;
 pub use depth_margin::Margin;
 pub use distance_field::{DistanceField, DistanceSample};
 pub use evidence::{Presentation, Reach, presentation};
-pub use icp::{Icp, IcpOptions, KdTree, PointToPoint, PointToPointOptions, icp, point_to_point};
+pub use icp::{
+    Errors, Icp, IcpOptions, KdTree, PointToPoint, PointToPointOptions, clustered_covariance, icp,
+    point_to_point,
+};
 pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;

@@ -1,15 +1,19 @@
-//! How far poses of an end-effector are off where the truth is known: `pose_truth MODEL [ROBOT.urdf] [--frames N] [--each]`
+//! How far poses of an end-effector are off where the truth is known:
+//!
+//! ```text
+//! pose_truth MODEL [ROBOT.urdf] [--frames N] [--each] [--only ROW] [--labels true|predicted] [--joint-states] [--sensor NAME]
+//! ```
 //!
 //! The paper's three test poses of the camera, its Kinect v1, six configurations of ten frames each (or N). ROBOT is
 //! `shackle` unless a URDF is named. As the paper's table of poses: mean and standard deviation of translation, rotation
 //! and ADD, with true labels and with predicted ones.
 #![allow(clippy::print_stdout, reason = "what an example is for")]
 
-use eyebolt::pose::{EndEffectorShape, PoseAnswer, PoseEstimator, PoseMethod};
+use eyebolt::pose::{EndEffectorShape, PoseAnswer, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::robots::BuiltIn;
-use eyebolt::segment::{Segmenter, UNKNOWN};
+use eyebolt::segment::{END_EFFECTOR, Segmenter, UNKNOWN};
 use eyebolt::simulate::{Faults, PRESETS, Plan, Scenario, Viewpoint, plan};
-use eyebolt_geometry::{Camera, EndEffector, Transform};
+use eyebolt_geometry::{Camera, DepthImage, EndEffector, Transform};
 use eyebolt_recording::{FrameSource, Range};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
@@ -44,9 +48,19 @@ struct Row {
     add_mm: Vec<f64>,
     within_bound: usize,
     refused_right: usize,
+    /// Pixels that are the end-effector's in truth, that are found to be, and both.
+    pixels: [usize; 3],
 }
 
 impl Row {
+    fn count(&mut self, truth: &[u8], found: &[u8], depth: &DepthImage) {
+        for ((truth, found), z) in truth.iter().zip(found).zip(depth.depth_m()) {
+            let [truth, found] = [truth, found].map(|of| *of == END_EFFECTOR && *z > 0.0);
+            let counts = [truth, found, truth && found];
+            self.pixels.iter_mut().zip(counts).for_each(|(sum, is)| *sum += usize::from(is));
+        }
+    }
+
     fn add(
         &mut self,
         shape: &EndEffectorShape,
@@ -69,6 +83,9 @@ impl Row {
             let (support, refusal) = (found.support, found.refusal);
             let expected =
                 found.expected_error.map_or((0.0, 0.0), |it| (it.translation_mm, it.rotation_deg));
+            let ray = truth.translation_m().normalize();
+            let off = pose.translation_m() - truth.translation_m();
+            println!("  {:.2} m along {:.2} mm", truth.translation_m().norm(), 1e3 * off.dot(&ray));
             println!(
                 "  ADD {:.2} mm, {:.2} mm {:.2} deg of expected {expected:.2?}, {:?}, {support:.3?} {refusal:?}",
                 1e3 * add,
@@ -76,6 +93,18 @@ impl Row {
                 radians.to_degrees(),
                 found.source
             );
+            for rival in &found.rivals {
+                let (other, of) = (rival.camera_from_end_effector, rival.comparison);
+                let apart = other.distance_to(&pose);
+                println!(
+                    "    rival {:.1} mm {:.1} deg apart: {:.2} +- {:.2} of {} pixels",
+                    1e3 * apart.0,
+                    apart.1.to_degrees(),
+                    of.advantage,
+                    of.deviation,
+                    of.pixels
+                );
+            }
         }
         if found.refusal.is_some() {
             self.refused_right += usize::from(add < 0.01);
@@ -105,10 +134,12 @@ impl Row {
         };
         let far = self.add_mm.iter().filter(|add| **add > 10.0).count();
         format!(
-            "{} mm  {} deg  ADD {}  answered {}/{} (beyond 10 mm {far}, right but refused {}, within bound {})",
+            "{} mm  {} deg  ADD {}  labels {:.3}/{:.3}  answered {}/{} (beyond 10 mm {far}, right but refused {}, within bound {})",
             both(&self.translation_mm),
             both(&self.rotation_deg),
             both(&self.add_mm),
+            self.pixels[2] as f64 / self.pixels[1].max(1) as f64,
+            self.pixels[2] as f64 / self.pixels[0].max(1) as f64,
             self.answered,
             self.frames,
             self.refused_right,
@@ -119,11 +150,17 @@ impl Row {
 
 fn main() -> Result<(), Failure> {
     let (mut model, mut urdf, mut frames, mut each) = (None, None, 10, false);
+    let (mut only, mut labels, mut joint_states) = (None, None, false);
+    let mut sensor = "kinect-v1".to_owned();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--frames" => frames = arguments.next().ok_or("--frames N")?.parse()?,
             "--each" => each = true,
+            "--joint-states" => joint_states = true,
+            "--only" => only = arguments.next(),
+            "--labels" => labels = arguments.next(),
+            "--sensor" => sensor = arguments.next().ok_or("--sensor NAME")?,
             _ if model.is_none() => model = Some(argument),
             _ => urdf = Some(argument),
         }
@@ -132,21 +169,32 @@ fn main() -> Result<(), Failure> {
     let model = Path::new(&model);
     let (arm, urdf) = robot(urdf.as_deref())?;
     let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-pose-truth-links"));
-    let mut segmenter = Segmenter::open(model).ok();
     let shape = EndEffectorShape::of(&arm, &cache)?;
-    for true_labels in [true, false] {
+    let sensor: Sensor = sensor.parse()?;
+    let wanted = |of: bool| labels.as_deref().is_none_or(|labels| (labels == "true") == of);
+    for true_labels in [true, false].into_iter().filter(|of| wanted(*of)) {
         println!("{} labels", if true_labels { "true" } else { "predicted" });
-        for (name, method, refines) in ROWS {
+        let wanted = |row: &&(&str, PoseMethod, bool)| only.as_deref().is_none_or(|it| it == row.0);
+        for (name, method, refines) in ROWS.iter().filter(wanted).copied() {
             let Ok(mut estimator) = PoseEstimator::open(model, shape.clone(), method) else {
                 continue;
             };
             estimator.refines = refines;
+            let mut recognizer = match true_labels {
+                true => None,
+                false => Some(Recognizer::new(
+                    Segmenter::open(model)?,
+                    PoseEstimator::open(model, shape.clone(), PoseMethod::Fused)?,
+                )),
+            };
             let (mut row, mut seconds) = (Row { each, ..Row::default() }, 0.0);
             for (index, preset) in
                 PRESETS.iter().enumerate().filter(|(_, it)| it.name.contains("test"))
             {
-                let plan =
-                    plan(scenario(&arm, &urdf, Viewpoint::Preset(preset), frames, index), &cache)?;
+                let plan = plan(
+                    scenario(&arm, &urdf, (sensor, Viewpoint::Preset(preset)), frames, index),
+                    &cache,
+                )?;
                 let source = plan.in_memory()?;
                 let camera = source.camera().ok_or("no camera")?;
                 for frame in 0..CONFIGURATIONS * frames {
@@ -154,19 +202,28 @@ fn main() -> Result<(), Failure> {
                     let Range::Depth(depth) = &source.read_frame(frame)?.range else {
                         return Err("no depth".into());
                     };
-                    let label = match (true_labels, &mut segmenter) {
-                        (true, _) => {
-                            let truth = plan.true_view(frame / frames).label.into_iter();
+                    let truth_of_labels = plan.true_view(frame / frames).label;
+                    let label = match &mut recognizer {
+                        None => {
+                            let truth = truth_of_labels.into_iter();
                             truth
                                 .zip(depth.depth_m())
                                 .map(|(label, z)| if *z > 0.0 { label } else { UNKNOWN })
                                 .collect()
                         }
-                        (false, Some(segmenter)) => segmenter.segment(depth, camera)?.label,
-                        _ => continue,
+                        Some(recognizer) => {
+                            let found = recognizer.recognize(depth, camera, &[])?.segmentation;
+                            row.count(&truth_of_labels, &found.label, depth);
+                            found.label
+                        }
                     };
                     let begun = Instant::now();
-                    let found = estimator.estimate(depth, camera, &label, None)?;
+                    let found = estimator.estimate(
+                        depth,
+                        camera,
+                        &label,
+                        joint_states.then_some(&joints),
+                    )?;
                     seconds += begun.elapsed().as_secs_f64();
                     row.add(&shape, &joints, found.as_ref(), &truth);
                 }
@@ -197,15 +254,14 @@ fn robot(urdf: Option<&str>) -> Result<(Arm, String), Failure> {
 fn scenario<'a>(
     arm: &'a Arm,
     urdf: &'a str,
-    viewpoint: Viewpoint,
+    (sensor, viewpoint): (Sensor, Viewpoint),
     frames: usize,
     index: usize,
 ) -> Scenario<'a> {
-    let kinect = Sensor::ALL.iter().find(|sensor| sensor.name == "kinect-v1");
     Scenario {
         arm,
         urdf,
-        sensor: *kinect.expect("the paper's camera is among those that come with the program"),
+        sensor,
         viewpoint,
         configurations: CONFIGURATIONS,
         frames,

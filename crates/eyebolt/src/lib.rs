@@ -18,6 +18,7 @@ mod made_up;
 pub mod marker_answer;
 pub mod markers;
 pub mod monitor;
+pub mod networks;
 pub mod observations;
 mod other_unit;
 pub mod paper;

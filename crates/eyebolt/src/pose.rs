@@ -1,6 +1,7 @@
 //! Where the base may be: hypotheses for `camera_from_base`; and what networks say of the end-effector.
 
 mod by_end_effector;
+mod comparison;
 mod consensus;
 mod contest;
 mod estimator;
@@ -14,12 +15,14 @@ mod observed;
 mod open;
 mod patches;
 mod proposer;
+mod recognizer;
 mod rotation_net;
 mod shape;
 mod trust;
 mod view;
 
 pub use by_end_effector::ByEndEffector;
+pub use comparison::Comparison;
 pub use estimator::{PoseAnswer, PoseEstimator};
 pub use global_search::GlobalSearch;
 pub use hypotheses::{PoseHypothesis, Source, half_turns, with_translation};
@@ -30,7 +33,8 @@ pub use keypoint_net::{
 pub use method::{PoseError, PoseMethod};
 pub use observed::Observed;
 pub use proposer::{Hypothesis, PoseProposer};
+pub use recognizer::{RecognizeError, Recognized, Recognizer};
 pub use rotation_net::{Decoder, PoseNetError, QUATERNION, RotationMode, RotationNet, view_batch};
 pub use shape::EndEffectorShape;
-pub use trust::{ExpectedError, Refusal};
+pub use trust::{ExpectedError, Refusal, Rival};
 pub use view::{CELLS, EndEffectorView, VIEW_FEATURES, view_edge_m};

@@ -1,14 +1,10 @@
 //! What networks have to do with a calibration.
 
 use anyhow::{Result, bail};
-use eyebolt::calibrate::Limits;
-use eyebolt::label::{Labeller, Learned};
+use eyebolt::networks::Networks;
 use eyebolt::paper::{self, FrameEstimator, FrameLabels, Paper};
 use eyebolt::pipeline::{self, Outcome, Request};
-use eyebolt::pose::{
-    ByEndEffector, EndEffectorShape, GlobalSearch, PoseError, PoseEstimator, PoseMethod,
-    PoseProposer,
-};
+use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::progress::Progress;
 use eyebolt::segment::Segmenter;
 use eyebolt_recording::read_truth;
@@ -81,45 +77,11 @@ pub fn calibrate(
 ) -> Result<Outcome> {
     match (arguments.method, &arguments.model) {
         (Method::Paper, _) => by_paper(arguments, model(arguments)?, recording, request, progress),
-        (Method::Best, Some(folder)) => by_networks(folder, request, progress),
+        (Method::Best, Some(folder)) => {
+            let networks = Networks::open(folder, request)?;
+            Ok(pipeline::run(&networks.request(request), progress)?)
+        }
         (Method::Best | Method::Nothing, _) => Ok(pipeline::run(request, progress)?),
-    }
-}
-
-/// Networks know the arm's pixels in each image by itself, so that two configurations do: what more of them would
-/// tell is allowed for in the expected error.
-const FEWEST: usize = 2;
-
-fn by_networks(folder: &Path, request: &Request<'_>, progress: &dyn Progress) -> Result<Outcome> {
-    let segmenter = Segmenter::open(folder)?;
-    let tells_end_effector = segmenter.tells_end_effector();
-    let labeller = Learned::new(segmenter);
-    let estimator = match tells_end_effector {
-        true => estimator_if_any(folder, request)?,
-        false => None,
-    };
-    let proposer = estimator.map(|it| ByEndEffector::new(it, GlobalSearch::new(request.seed)));
-    let limits =
-        Limits { configurations: FEWEST.min(request.limits.configurations), ..request.limits };
-    let request = Request {
-        limits,
-        labeller: Some(&labeller as &dyn Labeller),
-        proposer: proposer.as_ref().map(|it| it as &dyn PoseProposer),
-        ..request.clone()
-    };
-    Ok(pipeline::run(&request, progress)?)
-}
-
-fn estimator(folder: &Path, request: &Request<'_>) -> Result<PoseEstimator, PoseError> {
-    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
-    PoseEstimator::open(folder, shape, PoseMethod::Fused)
-}
-
-/// `None` of a model that has no networks for poses.
-fn estimator_if_any(folder: &Path, request: &Request<'_>) -> Result<Option<PoseEstimator>> {
-    match estimator(folder, request) {
-        Err(PoseError::NoNetwork { .. }) => Ok(None),
-        opened => Ok(Some(opened?)),
     }
 }
 
@@ -130,23 +92,17 @@ fn by_paper(
     request: &Request<'_>,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
+    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
     let labels = match arguments.labels {
         LabelsFrom::Predicted => {
-            let segmenter = Segmenter::open(folder)?;
-            if !segmenter.tells_end_effector() {
-                bail!(
-                    "{}: the model tells the arm, but not its end-effector. Teach one for this robot with \
-                     eyebolt train",
-                    folder.display()
-                );
-            }
-            FrameLabels::Predicted(Box::new(segmenter))
+            FrameLabels::Predicted(Box::new(Recognizer::open(folder, shape.clone())?))
         }
         LabelsFrom::True => {
             FrameLabels::True(Box::new(Start::from(read_truth(recording)?.camera_from_base)))
         }
     };
-    let estimator = FrameEstimator::new(estimator(folder, request)?, !arguments.no_icp);
+    let estimator = PoseEstimator::open(folder, shape, PoseMethod::Fused)?;
+    let estimator = FrameEstimator::new(estimator, !arguments.no_icp);
     let mut paper = Paper { labels, estimator };
     Ok(match paper::calibrate(request, &mut paper, progress) {
         Err(paper::PaperError::Failure(failure)) => return Err(failure.into()),

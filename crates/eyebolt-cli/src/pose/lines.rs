@@ -77,7 +77,7 @@ impl Line {
             answered: found.refusal.is_none(),
             camera_from_end_effector: Some(pose(&found.camera_from_end_effector)),
             expected_error: found.expected_error.map(error),
-            alternatives: found.alternatives.iter().map(pose).collect(),
+            alternatives: found.alternatives().map(|it| pose(&it)).collect(),
             method: method.name(),
             joint_states,
             reason: found.refusal.map(|refusal| refusal.to_string()),

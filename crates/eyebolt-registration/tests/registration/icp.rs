@@ -2,7 +2,10 @@
 
 use crate::shapes::{cuboid, joined};
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{ArmLink, ArmModel, IcpOptions, LinkModel, Posture, StopReason, icp};
+use eyebolt_registration::{
+    ArmLink, ArmModel, Errors, IcpOptions, LinkModel, Posture, StopReason, clustered_covariance,
+    icp,
+};
 use eyebolt_render::Random;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use std::sync::Arc;
@@ -70,6 +73,62 @@ fn starts_two_centimetres_and_ten_degrees_off_come_to_the_truth() {
         }
     }
     assert!(found >= 97 && converged >= 75, "{found} of 100, {converged} converged");
+}
+
+/// Errors that patches of 2 cm share, by chance: what both covariances say of a pose is what many fits scatter by.
+#[test]
+fn patches_that_err_together_are_in_the_covariance() {
+    const PATCH_M: f64 = 0.02;
+    const DEVIATION_M: f64 = 0.001;
+    let (arm, posture) = shape();
+    let options = IcpOptions::default();
+    // A corner is seen, so that nothing slides.
+    let rotation = UnitQuaternion::from_euler_angles(0.6, 0.7, 0.3);
+    let truth = Transform::from_parts(Vector3::new(0.1, -0.05, 0.9), rotation);
+    let seen: Vec<Point3<f64>> = arm.links()[0]
+        .model
+        .surface
+        .iter()
+        .filter_map(|of| {
+            let point = truth.point(&of.point.cast());
+            (truth.direction(&of.normal.cast()).dot(&point.coords) < -0.2).then_some(point)
+        })
+        .collect();
+    let cell = |value: f64| (value / PATCH_M).floor() as i64;
+    let cluster: Vec<u32> =
+        seen.iter().map(|point| (100 * (cell(point.x) + 50) + cell(point.y) + 50) as u32).collect();
+    let (mut errors, mut as_seen, mut alike) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let cases = 150;
+    for case in 0..cases {
+        let random = Random::new(23).at(case);
+        let points: Vec<Point3<f32>> = seen
+            .iter()
+            .zip(&cluster)
+            .map(|(point, cluster)| {
+                let size = DEVIATION_M * random.at(u64::from(*cluster)).normal();
+                (point + size * point.coords.normalize()).cast()
+            })
+            .collect();
+        let fit = icp(&arm, &posture, &points, &truth, &options);
+        let off = fit.camera_from_base.distance_to(&truth);
+        let said = |errors| {
+            let covariance =
+                clustered_covariance((&arm, &posture), &points, errors, &fit, &options).unwrap();
+            [0, 3].map(|first| (first..first + 3).map(|at| covariance[(at, at)]).sum::<f64>())
+        };
+        let seen = said(Errors::AsSeen(&cluster));
+        // Along the ray; the normal is turned from it by half a right angle or so.
+        let known = said(Errors::Alike(&cluster, DEVIATION_M / 3f64.sqrt()));
+        for (part, off) in [off.0, off.1].into_iter().enumerate() {
+            errors[part] += off * off;
+            as_seen[part] += seen[part];
+            alike[part] += known[part];
+        }
+    }
+    for part in 0..2 {
+        let ratios = [as_seen, alike].map(|said| (said[part] / errors[part]).sqrt());
+        assert!(ratios.iter().all(|ratio| (0.7..1.4).contains(ratio)), "{part}: {ratios:?}");
+    }
 }
 
 #[test]

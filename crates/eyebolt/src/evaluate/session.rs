@@ -4,18 +4,17 @@ use super::calibration::Evaluation;
 use super::pose_errors::PoseErrors;
 use super::scores::{BEST, Calibrated, METHODS, NOTHING, OURS, OURS_ICP, Scores, TRUE_ICP};
 use crate::end_effector::{EndEffector, EndEffectorError};
-use crate::label::{FrameLabeller, Labeller, Learned, class_of};
+use crate::label::{FrameLabeller, class_of};
 use crate::markers::MarkerFailure;
+use crate::networks::{Networks, NetworksError};
 use crate::observations::Observations;
 use crate::paper::{self, FrameEstimator, FrameLabels, Paper, PaperError};
 use crate::pipeline::{self, Failure, Outcome, Request};
 use crate::pose::{
-    ByEndEffector, EndEffectorShape, GlobalSearch, PoseError, PoseEstimator, PoseMethod,
-    PoseProposer,
+    EndEffectorShape, PoseError, PoseEstimator, PoseMethod, RecognizeError, Recognizer,
 };
 use crate::progress::{Cancelled, Progress};
 use crate::record::{RecordError, SingleFrames, observe};
-use crate::segment::{SegmentError, Segmenter};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::Start;
 use std::path::{Path, PathBuf};
@@ -51,21 +50,15 @@ pub enum EvaluateError {
     /// The end-effector has no shape.
     #[error(transparent)]
     EndEffector(#[from] EndEffectorError),
-    /// The networks cannot be read.
+    /// The networks cannot be read, or cannot look at a frame.
     #[error(transparent)]
-    Segment(#[from] SegmentError),
+    Recognize(#[from] RecognizeError),
     /// Those for poses.
     #[error(transparent)]
     Pose(#[from] PoseError),
-    /// The model does not tell the end-effector.
-    #[error(
-        "{}: the model tells the arm, but not its end-effector. Teach one for this robot with eyebolt train",
-        folder.display()
-    )]
-    NoEndEffector {
-        /// Its folder.
-        folder: PathBuf,
-    },
+    /// The networks of a calibration.
+    #[error(transparent)]
+    Networks(#[from] NetworksError),
     /// Ended.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -121,7 +114,8 @@ fn frames(
         Start::from(*camera_from_base),
     );
     let frames = SingleFrames::new(source, observations, &request.options);
-    let mut segmenter = segmenter(model)?;
+    let shape = EndEffectorShape::of(request.arm, &request.cache)?;
+    let mut recognizer = Recognizer::open(&model.folder, shape)?;
     let mut estimators = Estimators::open(request, &model.folder)?;
     let mut scores = Scores::default();
     let count = source.frame_names().len();
@@ -137,7 +131,8 @@ fn frames(
             labelled.map_err(|source| RecordError::Kinematics { frame: name(), source })?;
         let Some(labelled) = labelled else { continue };
         let true_label: Vec<u8> = labelled.labels.iter().copied().map(class_of).collect();
-        let found_label = segmenter.segment(&frame.depth, &observations.camera)?.label;
+        let found = recognizer.recognize(&frame.depth, &observations.camera, &[])?;
+        let found_label = found.segmentation.label;
         scores.labels.add(&true_label, &found_label);
         for (label, errors) in
             [(&true_label, &mut scores.by_true_labels), (&found_label, &mut scores.by_found_labels)]
@@ -152,14 +147,6 @@ fn frames(
         }
     }
     Ok(scores)
-}
-
-fn segmenter(model: &Model) -> Result<Segmenter, EvaluateError> {
-    let segmenter = Segmenter::open(&model.folder)?;
-    match segmenter.tells_end_effector() {
-        true => Ok(segmenter),
-        false => Err(EvaluateError::NoEndEffector { folder: model.folder.clone() }),
-    }
 }
 
 /// Estimators of one model: a method whose networks it lacks has none.
@@ -195,7 +182,10 @@ fn calibrations(
     let folder = &model.folder;
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
     let open = || PoseEstimator::open(folder, shape.clone(), PoseMethod::Fused);
-    let predicted = || Ok::<_, EvaluateError>(FrameLabels::Predicted(Box::new(segmenter(model)?)));
+    let predicted = || {
+        let recognizer = Recognizer::open(folder, shape.clone())?;
+        Ok::<_, EvaluateError>(FrameLabels::Predicted(Box::new(recognizer)))
+    };
     let known = FrameLabels::True(Box::new(Start::from(*camera_from_base)));
     let mut outcomes = Vec::new();
     for (method, labels, refines) in
@@ -205,14 +195,8 @@ fn calibrations(
         outcomes
             .push((method, paper::calibrate(request, &mut Paper { labels, estimator }, progress)?));
     }
-    let labeller = Learned::new(segmenter(model)?);
-    let proposer = ByEndEffector::new(open()?, GlobalSearch::new(request.seed));
-    let learned = Request {
-        labeller: Some(&labeller as &dyn Labeller),
-        proposer: Some(&proposer as &dyn PoseProposer),
-        ..request.clone()
-    };
-    outcomes.push((BEST, pipeline::run(&learned, progress)?));
+    let networks = Networks::open(folder, request)?;
+    outcomes.push((BEST, pipeline::run(&networks.request(request), progress)?));
     outcomes.push((NOTHING, pipeline::run(request, progress)?));
     Ok(outcomes)
 }

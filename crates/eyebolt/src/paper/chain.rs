@@ -10,20 +10,20 @@ use crate::end_effector::EndEffector;
 use crate::label::{FrameLabeller, class_of};
 use crate::observations::{Configuration, Observations};
 use crate::pipeline::{Outcome, Request};
-use crate::pose::EndEffectorShape;
+use crate::pose::{EndEffectorShape, Recognizer};
 use crate::progress::{Progress, Step};
 use crate::record::{SingleFrame, SingleFrames, observe};
 use crate::refine::{ConfigurationOutcome, Dropped};
-use crate::segment::Segmenter;
 use eyebolt_geometry::{Base, Camera, PinholeCamera, Transform, mean_transform};
 use eyebolt_registration::{Posture, Start};
 use nalgebra::{Matrix6, Point3, Vector6};
+use std::slice;
 
 /// Who tells which pixels are the end-effector.
 #[derive(Debug)]
 pub enum FrameLabels {
-    /// Networks.
-    Predicted(Box<Segmenter>),
+    /// Networks, and the pose that explains what they say.
+    Predicted(Box<Recognizer>),
     /// The arm posed where it is known to be, as the paper's table has it for comparison.
     True(Box<Start>),
 }
@@ -78,12 +78,15 @@ fn frame_poses(
     let Paper { labels, estimator } = paper;
     let mut labeller = Labelled::new(labels, observations, request, &end_effector);
     let mut seen = Seen::default();
-    let place = |name: &String| source.frame_names().iter().position(|other| other == name);
+    let place = |name: &String| {
+        let at = source.frame_names().iter().position(|other| other == name)?;
+        Some((name.clone(), at))
+    };
     for (index, configuration) in observations.configurations.iter().enumerate() {
         progress.advance(index, observations.configurations.len())?;
         let posture = posture(estimator.shape(), observations, configuration);
         let mut insane = None;
-        for frame in configuration.frames.iter().filter_map(place) {
+        for (name, frame) in configuration.frames.iter().filter_map(place) {
             let frame = match frames.read(frame) {
                 Err(crate::record::RecordError::Recording(error))
                     if source.may_leave_out(&error) =>
@@ -92,7 +95,7 @@ fn frame_poses(
                 }
                 read => read?,
             };
-            let (label, camera) = labeller.label(&frame)?;
+            let (label, camera) = labeller.label(&name, &frame, &posture)?;
             let found = estimator.poses(&frame.depth, camera, &label, &posture)?;
             let end_effector_from_base = configuration.base_from_end_effector.inverse();
             match found {
@@ -120,7 +123,7 @@ fn posture(
 
 /// Labels of single frames.
 enum Labelled<'a> {
-    Predicted(&'a mut Segmenter, &'a PinholeCamera),
+    Predicted(&'a mut Recognizer, &'a PinholeCamera),
     True(Box<FrameLabeller<'a>>),
 }
 
@@ -132,7 +135,7 @@ impl<'a> Labelled<'a> {
         end_effector: &'a EndEffector,
     ) -> Self {
         match labels {
-            FrameLabels::Predicted(segmenter) => Self::Predicted(segmenter, &observations.camera),
+            FrameLabels::Predicted(recognizer) => Self::Predicted(recognizer, &observations.camera),
             FrameLabels::True(at) => {
                 let labeller = FrameLabeller::new(observations, request.arm, end_effector, **at);
                 Self::True(Box::new(labeller))
@@ -141,15 +144,21 @@ impl<'a> Labelled<'a> {
     }
 
     /// Labels of a frame, and the camera that they are of.
-    fn label(&mut self, frame: &SingleFrame) -> Result<(Vec<u8>, &PinholeCamera), PaperError> {
+    fn label(
+        &mut self,
+        name: &str,
+        frame: &SingleFrame,
+        posture: &Posture,
+    ) -> Result<(Vec<u8>, &PinholeCamera), PaperError> {
         match self {
-            Self::Predicted(segmenter, camera) => {
-                Ok((segmenter.segment(&frame.depth, camera)?.label, camera))
+            Self::Predicted(recognizer, camera) => {
+                let found = recognizer.recognize(&frame.depth, camera, slice::from_ref(posture))?;
+                Ok((found.segmentation.label, camera))
             }
             Self::True(labeller) => {
                 let found = labeller.label(&frame.depth, frame.mask.as_ref(), &frame.joints);
                 let source = |source| crate::record::RecordError::Kinematics {
-                    frame: String::new(),
+                    frame: name.to_owned(),
                     source,
                 };
                 let labels = found.map_err(source)?.map(|found| found.labels).unwrap_or_default();

@@ -2,10 +2,9 @@
 
 use crate::end_effector::EndEffectorError;
 use crate::pipeline::Failure;
-use crate::pose::PoseError;
+use crate::pose::{PoseError, RecognizeError};
 use crate::progress::Cancelled;
 use crate::record::RecordError;
-use crate::segment::SegmentError;
 
 /// What keeps the paper's chain from its work.
 #[derive(Debug, thiserror::Error)]
@@ -15,7 +14,7 @@ pub enum PaperError {
     Failure(#[from] Failure),
     /// Of the networks that tell pixels.
     #[error(transparent)]
-    Segment(#[from] SegmentError),
+    Recognize(#[from] RecognizeError),
     /// Of those that tell poses.
     #[error(transparent)]
     Pose(#[from] PoseError),

@@ -4,7 +4,6 @@ use super::consensus::{Candidate, Consensus, consensus};
 use super::estimator::{PoseAnswer, PoseEstimator};
 use super::global_search::GlobalSearch;
 use super::proposer::{Hypothesis, PoseProposer};
-use super::trust::Refusal;
 use crate::label::{Labelling, class_of};
 use crate::observations::{Configuration, Observations};
 use crate::segment::{BACKGROUND, UNKNOWN};
@@ -50,10 +49,10 @@ impl ByEndEffector {
             let posture = estimator.shape().posture_of(&observations.arm, configuration);
             let (depth, camera) = (&configuration.depth, &observations.camera);
             let found = estimator.estimate_at(depth, camera, &label, posture.as_slice())?;
-            let Some(found) = found.filter(is_of_use) else { continue };
+            let Some(found) = found.filter(PoseAnswer::may_be_right) else { continue };
             let twins = estimator.shape().twins().to_vec();
             let end_effector_from_base = configuration.base_from_end_effector.inverse();
-            let poses = std::iter::once(&found.camera_from_end_effector).chain(&found.alternatives);
+            let poses = std::iter::once(found.camera_from_end_effector).chain(found.alternatives());
             candidates.extend(poses.flat_map(|pose| {
                 twins.iter().map(move |twin| {
                     let pose =
@@ -65,11 +64,6 @@ impl ByEndEffector {
         }
         Ok(candidates)
     }
-}
-
-/// Whether a pose may be right, even if it is not known which of several.
-fn is_of_use(found: &PoseAnswer) -> bool {
-    matches!(found.refusal, None | Some(Refusal::Ambiguous { .. }))
 }
 
 impl PoseProposer for ByEndEffector {

@@ -1,5 +1,6 @@
 //! Hypotheses against each other.
 
+use super::comparison::Comparison;
 use super::hypotheses::PoseHypothesis;
 use super::judge::Judge;
 use super::judged::{Judged, keep_distinct, refined};
@@ -27,10 +28,21 @@ const FINALISTS: usize = 4;
 const OPENED: usize = 2;
 /// From centimetres and a dozen degrees on, by few points.
 const FIRST: IcpOptions = IcpOptions { first_scale_m: 0.03, least_scale_m: 0.004, most_steps: 15 };
-/// On from there.
-const LAST: IcpOptions = IcpOptions { first_scale_m: 0.01, least_scale_m: 0.002, most_steps: 30 };
+
+/// Poses are told apart by residuals of so many times the deviation of the best one: labels and shapes are not exact.
+const MEASURE: f64 = 1.5;
+
+/// Standard deviation of the depth where the best of `judged` lies, metres.
+fn measure_m(judged: &[Judged]) -> f64 {
+    let least = judged.iter().map(|it| it.fit.deviation_m).fold(f64::INFINITY, f64::min);
+    least.max(0.5 * Contest::LAST.least_scale_m)
+}
 
 impl Contest<'_> {
+    /// On from there.
+    pub const LAST: IcpOptions =
+        IcpOptions { first_scale_m: 0.01, least_scale_m: 0.002, most_steps: 30 };
+
     /// The best of `hypotheses`, refined, best first; no two are the same pose.
     pub fn ranked(&self, hypotheses: Vec<PoseHypothesis>) -> Vec<Judged> {
         let points = &self.observed.points;
@@ -40,14 +52,14 @@ impl Contest<'_> {
         keep_distinct(self.shape, &mut judged, FINALISTS);
         let again = |it: &Judged| PoseHypothesis { pose: it.fit.camera_from_base, ..it.hypothesis };
         let entries = judged.iter().map(|it| (again(it), 0));
-        let mut judged = self.round(entries, points, LAST);
+        let mut judged = self.round(entries, points, Self::LAST);
         self.by_one_measure(&mut judged);
         keep_distinct(self.shape, &mut judged, FINALISTS);
         let opened = judged.iter().take(OPENED).flat_map(|it| {
             let hypothesis = again(it);
             (1..self.openings.len()).map(move |opening| (hypothesis, opening))
         });
-        let opened = self.round(opened.collect::<Vec<_>>().into_iter(), points, LAST);
+        let opened = self.round(opened.collect::<Vec<_>>().into_iter(), points, Self::LAST);
         judged.extend(opened);
         self.by_one_measure(&mut judged);
         keep_distinct(self.shape, &mut judged, FINALISTS);
@@ -70,14 +82,26 @@ impl Contest<'_> {
         judged.collect()
     }
 
+    /// By how much the frame speaks for the first of `judged` against each of the others.
+    pub fn comparisons(&self, judged: &[Judged]) -> Vec<Comparison> {
+        let Some((best, others)) = judged.split_first() else { return Vec::new() };
+        let mut judge = Judge::new(self.shape, self.observed);
+        let deviation_m = MEASURE * measure_m(judged);
+        let between = |other: &Judged| {
+            let [first, second] =
+                [best, other].map(|it| (&self.openings[it.opening], &it.fit.camera_from_base));
+            Comparison::between(&mut judge, first, second, deviation_m)
+        };
+        others.iter().map(between).collect()
+    }
+
     /// Judges all by the deviation of the one that fits best.
     fn by_one_measure(&self, judged: &mut [Judged]) {
-        let deviation_m = judged.iter().map(|it| it.fit.deviation_m).fold(f64::INFINITY, f64::min);
-        let deviation_m = deviation_m.max(0.5 * LAST.least_scale_m);
+        let deviation_m = measure_m(judged);
         let judge = || Judge::new(self.shape, self.observed);
         judged.par_iter_mut().for_each_init(judge, |judge, it| {
             let posture = &self.openings[it.opening];
-            it.support = judge.support(posture, &it.fit.camera_from_base, 1.5 * deviation_m);
+            it.support = judge.support(posture, &it.fit.camera_from_base, MEASURE * deviation_m);
         });
     }
 }

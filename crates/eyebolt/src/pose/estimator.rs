@@ -1,14 +1,14 @@
 //! The pose of an end-effector from one frame.
 
 use super::contest::Contest;
-use super::hypotheses::{PoseHypothesis, Source, half_turns, with_translation};
+use super::hypotheses::{PoseHypothesis, Source, everywhere, half_turns, with_translation};
 use super::judge::{Judge, Support};
 use super::judged::{COARSE_M, Judged};
 use super::keypoint_net::KeypointNet;
 use super::observed::Observed;
 use super::rotation_net::RotationNet;
 use super::shape::EndEffectorShape;
-use super::trust::{ExpectedError, Refusal, expected_error, is_as_good, refusal};
+use super::trust::{ExpectedError, Refusal, Rival, trust};
 use super::{PoseError, PoseMethod};
 use eyebolt_geometry::{Camera, DepthImage, EndEffector, PinholeCamera, Transform};
 use eyebolt_registration::Posture;
@@ -27,7 +27,7 @@ pub struct PoseEstimator {
 }
 
 /// A pose, and how far to trust it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct PoseAnswer {
     /// The likeliest pose.
     pub camera_from_end_effector: Transform<Camera, EndEffector>,
@@ -35,12 +35,27 @@ pub struct PoseAnswer {
     pub source: Source,
     /// How far off it is likely to be; `None` of a pose that is not refined.
     pub expected_error: Option<ExpectedError>,
+    /// Where the links of the end-effector are then.
+    pub posture: Posture,
     /// What the frame says of it.
     pub support: Support,
-    /// Other poses that the frame supports as well, likeliest first.
-    pub alternatives: Vec<Transform<Camera, EndEffector>>,
+    /// Other poses that were refined and held against it, likeliest first.
+    pub rivals: Vec<Rival>,
     /// Why it should not be used, if so.
     pub refusal: Option<Refusal>,
+}
+
+impl PoseAnswer {
+    /// Whether it may be right, even if it is not known which of several poses is.
+    pub fn may_be_right(&self) -> bool {
+        matches!(self.refusal, None | Some(Refusal::Ambiguous { .. }))
+    }
+
+    /// Other poses that the frame supports as well, likeliest first.
+    pub fn alternatives(&self) -> impl Iterator<Item = Transform<Camera, EndEffector>> {
+        let as_good = self.rivals.iter().filter(|rival| rival.is_as_good());
+        as_good.map(|rival| rival.camera_from_end_effector)
+    }
 }
 
 impl PoseEstimator {
@@ -85,9 +100,38 @@ impl PoseEstimator {
         label: &[u8],
         joints: Option<&JointPositions>,
     ) -> Result<Option<PoseAnswer>, PoseError> {
-        let posture: Vec<Posture> =
-            joints.map(|joints| self.shape.posture(joints)).into_iter().collect();
-        self.estimate_at(depth, camera, label, &posture)
+        let posture = joints.map(|joints| self.shape.posture(joints));
+        let postures = posture.as_slice();
+        let found = self.estimate_at(depth, camera, label, postures)?;
+        let is_enough = self.method != PoseMethod::Fused || !self.refines;
+        if is_enough || found.as_ref().is_none_or(PoseAnswer::may_be_right) {
+            return Ok(found);
+        }
+        let searched = self.estimate_anyhow(depth, camera, label, postures);
+        Ok(searched.filter(PoseAnswer::may_be_right).or(found))
+    }
+
+    /// As [`Self::estimate_at`], without networks: every way the end-effector may be turned is tried, which takes ten times
+    /// as long.
+    pub(crate) fn estimate_anyhow(
+        &self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        label: &[u8],
+        postures: &[Posture],
+    ) -> Option<PoseAnswer> {
+        let observed = Observed::new(depth, camera, label, self.shape.extent_m())?;
+        let openings = self.openings(postures);
+        let hypotheses = everywhere(&self.shape, &openings[0], &observed);
+        let contest = Contest { shape: &self.shape, observed: &observed, openings: &openings };
+        answer(&contest, &contest.ranked(hypotheses))
+    }
+
+    fn openings(&self, postures: &[Posture]) -> Vec<Posture> {
+        match postures {
+            [] => self.shape.openings(),
+            known => known.to_vec(),
+        }
     }
 
     /// As [`Self::estimate`], with the links of the end-effector in one of `postures`; if there is none, at one of a
@@ -107,17 +151,14 @@ impl PoseEstimator {
         let Some(observed) = Observed::new(depth, camera, label, extent_m) else {
             return Ok(None);
         };
-        let openings = match postures {
-            [] => self.shape.openings(),
-            known => known.to_vec(),
-        };
+        let openings = self.openings(postures);
         let posture = &openings[0];
         let hypotheses = self.hypotheses(&observed, posture)?;
         let contest = Contest { shape: &self.shape, observed: &observed, openings: &openings };
         if !self.refines {
             return Ok(hypotheses.first().map(|first| as_it_is(&contest, first)));
         }
-        Ok(answer(&observed, &contest.ranked(hypotheses)))
+        Ok(answer(&contest, &contest.ranked(hypotheses)))
     }
 
     /// What the networks of `method` alone say first of what was `observed`.
@@ -174,23 +215,34 @@ fn as_it_is(contest: &Contest<'_>, first: &PoseHypothesis) -> PoseAnswer {
         camera_from_end_effector: Transform::from_isometry(*first.pose.isometry()),
         source: first.source,
         expected_error: None,
+        posture: contest.openings[0].clone(),
         support: judge.support(&contest.openings[0], &first.pose, 3.0 * COARSE_M),
-        alternatives: Vec::new(),
+        rivals: Vec::new(),
         refusal: None,
     }
 }
 
-fn answer(observed: &Observed, judged: &[Judged]) -> Option<PoseAnswer> {
+fn answer(contest: &Contest<'_>, judged: &[Judged]) -> Option<PoseAnswer> {
     let (best, others) = judged.split_first()?;
     let pose = |it: &Judged| Transform::from_isometry(*it.fit.camera_from_base.isometry());
-    let alternatives = others.iter().filter(|other| is_as_good(best, other));
-    let alternatives: Vec<_> = alternatives.map(pose).collect();
+    let rivals = others.iter().zip(contest.comparisons(judged));
+    let rivals: Vec<Rival> = rivals
+        .map(|(other, comparison)| {
+            let camera_from_end_effector = pose(other);
+            let poses: [Transform<Camera, EndEffector>; 2] = [pose(best), camera_from_end_effector];
+            let poses = poses.map(|pose| *pose.isometry());
+            let apart = contest.shape.apart(&poses[0], &poses[1]);
+            Rival { apart, camera_from_end_effector, comparison }
+        })
+        .collect();
+    let (expected_error, refusal) = trust(contest, best, &rivals);
     Some(PoseAnswer {
         camera_from_end_effector: pose(best),
         source: best.hypothesis.source,
-        expected_error: expected_error(observed, &best.fit),
+        posture: contest.openings[best.opening].clone(),
+        expected_error,
         support: best.support,
-        refusal: refusal(observed, best, &alternatives),
-        alternatives,
+        rivals,
+        refusal,
     })
 }

@@ -5,8 +5,9 @@ use super::observed::Observed;
 use super::shape::EndEffectorShape;
 use crate::segment::middle;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::Posture;
+use eyebolt_registration::{Posture, spread_rotations};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Who says that an end-effector may be there.
@@ -18,6 +19,8 @@ pub enum Source {
     Keypoints,
     /// A half turn of one of these: grippers look alike from behind.
     Twin,
+    /// Nobody: rotations spread all over, where no other hypothesis explains what is seen.
+    Search,
 }
 
 /// A pose to begin with.
@@ -72,6 +75,24 @@ fn middle_drawn(
     };
     let middle = middle(raster.pixels().filter_map(point))?;
     Some(Vector3::from(middle).cast())
+}
+
+/// Rotations that are tried where networks say nothing of use: no rotation is farther than some 30 degrees from the nearest.
+const SPREAD: usize = 400;
+
+/// The shape turned every way, each time where it has its middle in the middle of what was seen.
+pub fn everywhere(
+    shape: &EndEffectorShape,
+    posture: &Posture,
+    observed: &Observed,
+) -> Vec<PoseHypothesis> {
+    let rotations = spread_rotations(SPREAD, 1);
+    let judge = || Judge::new(shape, observed);
+    let hypothesis = |judge: &mut Judge<'_>, rotation| {
+        let pose = with_translation(judge, shape, posture, observed, rotation);
+        PoseHypothesis { pose, source: Source::Search, probability: 1.0 / SPREAD as f64 }
+    };
+    rotations.into_par_iter().map_init(judge, hypothesis).collect()
 }
 
 /// `of` turned by half about each axis of the end-effector frame, through the middle of the shape.

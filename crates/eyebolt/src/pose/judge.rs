@@ -55,27 +55,49 @@ impl<'a> Judge<'a> {
         deviation_m: f64,
     ) -> Support {
         self.draw(posture, pose);
-        let Observed { image, label, .. } = self.observed;
         let reach = (3.0 * deviation_m) as f32;
         let mut sums = Sums::default();
-        for (at, (seen, label)) in image.depth_m.iter().zip(label).enumerate() {
-            let (seen, of_it) = (*seen, *label == END_EFFECTOR);
-            match self.raster.depth_m(at) {
-                Some(drawn) if seen > 0.0 => {
-                    let off = (seen - drawn) / reach;
-                    if off < -1.0 && !of_it {
-                        // Something else is before it.
-                        continue;
-                    }
-                    sums.drawn += 1;
-                    sums.through += usize::from(off > 1.0);
-                    sums.add(f64::from(off * off).min(1.0), of_it);
-                }
-                None if of_it && seen > 0.0 => sums.add(1.0, true),
-                _ => {}
-            }
+        for at in 0..self.observed.label.len() {
+            let Some(said) = self.said(at, reach) else { continue };
+            sums.drawn += usize::from(said.drawn);
+            sums.through += usize::from(said.through);
+            sums.add(f64::from(said.cost), self.observed.label[at] == END_EFFECTOR);
         }
         Support { goes_on: self.goes_on(reach), ..sums.support() }
+    }
+
+    /// The cost of each pixel that says something, as [`Self::support`] has it.
+    pub fn costs(
+        &mut self,
+        posture: &Posture,
+        pose: &Transform<Camera, Base>,
+        deviation_m: f64,
+    ) -> Vec<Option<f32>> {
+        self.draw(posture, pose);
+        let reach = (3.0 * deviation_m) as f32;
+        let pixels = 0..self.observed.label.len();
+        pixels.map(|at| self.said(at, reach).map(|said| said.cost)).collect()
+    }
+
+    /// What was observed.
+    pub fn observed(&self) -> &Observed {
+        self.observed
+    }
+
+    /// What a pixel says of the shape as it was drawn last.
+    fn said(&self, at: usize, reach_m: f32) -> Option<Said> {
+        let of_it = self.observed.label[at] == END_EFFECTOR;
+        let seen = self.observed.image.depth_m[at];
+        if seen <= 0.0 {
+            return None;
+        }
+        let Some(drawn) = self.raster.depth_m(at) else {
+            return of_it.then_some(Said { cost: 1.0, drawn: false, through: false });
+        };
+        let off = (seen - drawn) / reach_m;
+        // Else something is before it.
+        let says = off >= -1.0 || of_it;
+        says.then(|| Said { cost: (off * off).min(1.0), drawn: true, through: off > 1.0 })
     }
 
     /// Share of the drawn outline beyond which the surface seen goes on.
@@ -110,6 +132,14 @@ impl<'a> Judge<'a> {
         }
         f64::from(on as u32) / f64::from((outline as u32).max(1))
     }
+}
+
+/// What a pixel says.
+struct Said {
+    cost: f32,
+    /// Whether the shape is drawn there, and the camera saw through it.
+    drawn: bool,
+    through: bool,
 }
 
 #[derive(Default)]

@@ -10,6 +10,8 @@ use nalgebra::Point3;
 pub struct Observed {
     /// Points of it, evenly chosen, camera frame, metres.
     pub points: Vec<Point3<f32>>,
+    /// Of each point, its patch of the frame: errors of depth and of labels go together within one.
+    pub patch: Vec<u32>,
     /// Its pixels in the frame.
     pub pixels: usize,
     /// The same as networks see it.
@@ -24,6 +26,8 @@ pub struct Observed {
 
 /// Points that a pose is fitted to at most.
 const MOST_POINTS: usize = 2000;
+/// Edge of a patch, pixels of the camera: windows of stereo and structured light are so large.
+const PATCH_PX: usize = 8;
 /// A pixel belongs to a bin if its depth differs from the bin's by less than this share.
 const SAME_SURFACE: f32 = 0.01;
 
@@ -42,24 +46,32 @@ impl Observed {
         let point = |at: &usize| {
             let pixel = nalgebra::Point2::new((at % width) as f64, (at / width) as f64);
             let ray = camera.ray(&pixel)?.cast::<f32>();
-            Some(Point3::from(ray * depth.depth_m()[*at]))
+            let across = width.div_ceil(PATCH_PX);
+            let patch = at / width / PATCH_PX * across + at % width / PATCH_PX;
+            Some((Point3::from(ray * depth.depth_m()[*at]), patch as u32))
         };
-        let all: Vec<Point3<f32>> = pixels.iter().filter_map(point).collect();
-        let coordinates: Vec<[f32; 3]> = all.iter().map(|point| (*point).into()).collect();
+        let all: Vec<(Point3<f32>, u32)> = pixels.iter().filter_map(point).collect();
+        let coordinates: Vec<[f32; 3]> = all.iter().map(|(point, _)| (*point).into()).collect();
         let view = EndEffectorView::new(&coordinates, extent_m)?;
         let middle = view.camera_from_view.translation_m().cast::<f32>();
         let half_m = window_half_m(extent_m);
         let (image, _) = part_around(depth, camera, middle.into(), half_m)?;
         let step = all.len().div_ceil(MOST_POINTS);
-        let points = all.into_iter().step_by(step).collect();
+        let (points, patch) = all.into_iter().step_by(step).unzip();
         Some(Self {
             points,
+            patch,
             pixels: pixels.len(),
             view,
             label: labels(&image, depth, label),
             camera: camera_of(&image, camera)?,
             image,
         })
+    }
+
+    /// Edge of a patch in pixels of the part of the image.
+    pub fn patch_edge(&self) -> usize {
+        PATCH_PX.div_ceil(self.image.step)
     }
 
     /// Median of the points, each coordinate by itself, metres.

@@ -1,9 +1,12 @@
 //! How far to trust the pose of an end-effector.
 
+use super::comparison::Comparison;
+use super::contest::Contest;
 use super::judged::Judged;
 use super::observed::Observed;
 use eyebolt_geometry::{Camera, EndEffector, Transform};
-use eyebolt_registration::{Icp, StopReason};
+use eyebolt_registration::{Errors, StopReason, clustered_covariance};
+use nalgebra::Point3;
 use std::fmt;
 
 /// How far off a pose is likely to be.
@@ -13,6 +16,17 @@ pub struct ExpectedError {
     pub translation_mm: f64,
     /// Of its rotation, root mean square, degrees.
     pub rotation_deg: f64,
+}
+
+/// Another pose that was held against the answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rival {
+    /// How far it is from the answer, by the turn that cannot be seen which is nearest, metres and radians.
+    pub apart: (f64, f64),
+    /// Pose of the end-effector.
+    pub camera_from_end_effector: Transform<Camera, EndEffector>,
+    /// What the frame says of the answer against it.
+    pub comparison: Comparison,
 }
 
 /// Why a pose should not be used.
@@ -70,54 +84,89 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// Errors of depth are shared by about so many neighbouring pixels: windows of stereo and structured light,
-/// seen by an end-effector of a hundred pixels across.
-const CORRELATED_PX: f64 = 60.0;
-/// By how much the logarithm of the likelihood has to differ for a pose to be the better one.
-const TELLING: f64 = 3.0;
+/// By how many standard deviations the costs of two poses have to differ for one to be the better one.
+const TELLING: f64 = 2.5;
+/// Poses nearer to each other are one, of which it is not known exactly where it is, metres and radians.
+const NEAR_M: f64 = 0.02;
+const NEAR_RAD: f64 = 0.25;
+/// By how much depth is biased, alike over parts of an end-effector, of so much of its extent: at the camera, and for each
+/// square metre of distance (as the noise of triangulation grows), metres.
+const BIAS_M: f64 = 5e-4;
+const BIAS_PER_SQUARE_METRE_M: f64 = 1e-3;
+const PARTS: f64 = 0.25;
 /// Least share of the end-effector's pixels on the shape, and most of the shape's that the camera saw through.
 const LEAST_EXPLAINED: f64 = 0.55;
 const MOST_SEEN_THROUGH: f64 = 0.2;
 /// Most of the outline beyond which the surface goes on: where the end-effector is mounted.
-const MOST_GOES_ON: f64 = 0.2;
+const MOST_GOES_ON: f64 = 0.45;
 /// Shapes, intrinsics and simplified meshes are not better than this, metres and radians.
 const FLOOR_M: f64 = 0.0003;
 const FLOOR_RAD: f64 = 0.001;
 
-/// Errors as the residuals have them, of points that are correlated in the image.
-pub(super) fn expected_error(observed: &Observed, fit: &Icp) -> Option<ExpectedError> {
+/// Errors as the residuals have them, those of a patch of the image together; biases of the camera, which do not show; and
+/// what poses nearby that fit as well are apart.
+fn expected_error(contest: &Contest<'_>, best: &Judged, rivals: &[Rival]) -> Option<ExpectedError> {
+    let fit = &best.fit;
     if fit.stop == StopReason::Underdetermined {
         return None;
     }
-    let taken = observed.pixels as f64 / observed.points.len().max(1) as f64;
-    let per_point = (CORRELATED_PX / taken).max(1.0);
-    let covariance = fit.information.try_inverse()? * fit.deviation_m.powi(2) * per_point;
+    let Contest { shape, observed, openings } = contest;
+    let fitted = (&shape.model, openings.get(best.opening)?);
+    let covariance =
+        |errors| clustered_covariance(fitted, &observed.points, errors, fit, &Contest::LAST);
+    let bias_m = BIAS_M + BIAS_PER_SQUARE_METRE_M * observed.middle().z.powi(2);
+    let parts = regions(observed, PARTS * shape.extent_m());
+    let covariance =
+        covariance(Errors::AsSeen(&observed.patch))? + covariance(Errors::Alike(&parts, bias_m))?;
     let trace = |first: usize| (first..first + 3).map(|at| covariance[(at, at)]).sum::<f64>();
+    let near = rivals.iter().filter(|rival| rival.is_near() && rival.is_as_good());
+    let farthest = near
+        .map(|rival| rival.apart)
+        .fold((0.0, 0.0), |a: (f64, f64), b| (a.0.max(b.0), a.1.max(b.1)));
     let root = |variance: f64, floor: f64| (variance + floor * floor).max(0.0).sqrt();
     Some(ExpectedError {
-        translation_mm: 1e3 * root(trace(0), FLOOR_M),
-        rotation_deg: root(trace(3), FLOOR_RAD).to_degrees(),
+        translation_mm: 1e3 * root(trace(0) + (0.5 * farthest.0).powi(2), FLOOR_M),
+        rotation_deg: root(trace(3) + (0.5 * farthest.1).powi(2), FLOOR_RAD).to_degrees(),
     })
 }
 
-/// Whether `other` explains the frame as well as `best`: the difference of their costs, as a logarithm of
-/// likelihoods of pixels that are not independent, tells nothing.
-pub(super) fn is_as_good(best: &Judged, other: &Judged) -> bool {
-    // A cost of 1 is a residual of three standard deviations of what the judge goes by, which is 1.5 of the
-    // noise's.
-    const PER_COST: f64 = 0.5 * 9.0;
-    let pixels = best.support.pixels.max(other.support.pixels) as f64 / CORRELATED_PX.sqrt();
-    PER_COST * pixels * (other.support.cost - best.support.cost) < TELLING
+/// Of each point, which square of that edge before the camera it is in.
+fn regions(observed: &Observed, edge_m: f64) -> Vec<u32> {
+    let edge = (edge_m / observed.middle().z) as f32;
+    let of = |point: &Point3<f32>| {
+        let [u, v] = [point.x, point.y].map(|of| (of / point.z / edge).floor() as i32 as u32);
+        u.wrapping_mul(0x1_0001).wrapping_add(v)
+    };
+    observed.points.iter().map(of).collect()
 }
 
-pub(super) fn refusal(
-    observed: &Observed,
-    best: &Judged,
-    alternatives: &[Transform<Camera, EndEffector>],
-) -> Option<Refusal> {
-    if expected_error(observed, &best.fit).is_none() {
-        return Some(Refusal::Underdetermined);
+impl Rival {
+    /// Whether it explains the frame as well as the answer: the difference tells nothing.
+    pub fn is_as_good(&self) -> bool {
+        self.comparison.advantage < TELLING * self.comparison.deviation
     }
+
+    /// Whether it is the same pose, but for an error.
+    fn is_near(&self) -> bool {
+        self.apart.0 < NEAR_M && self.apart.1 < NEAR_RAD
+    }
+}
+
+/// How far off the best of a contest is likely to be, or why it should not be used.
+pub(super) fn trust(
+    contest: &Contest<'_>,
+    best: &Judged,
+    rivals: &[Rival],
+) -> (Option<ExpectedError>, Option<Refusal>) {
+    let expected = expected_error(contest, best, rivals);
+    let refusal = match expected {
+        None => Some(Refusal::Underdetermined),
+        Some(_) => refusal(best, rivals),
+    };
+    (expected, refusal)
+}
+
+fn refusal(best: &Judged, rivals: &[Rival]) -> Option<Refusal> {
     let support = best.support;
     if support.explained < LEAST_EXPLAINED {
         return Some(Refusal::Unexplained { share: support.explained });
@@ -128,9 +177,6 @@ pub(super) fn refusal(
     if support.goes_on > MOST_GOES_ON {
         return Some(Refusal::GoesOn { share: support.goes_on });
     }
-    alternatives.first().map(|other| {
-        let rotation = best.fit.camera_from_base.rotation();
-        let apart_deg = rotation.angle_to(&other.rotation()).to_degrees();
-        Refusal::Ambiguous { apart_deg }
-    })
+    let another = rivals.iter().find(|rival| rival.is_as_good() && !rival.is_near());
+    another.map(|other| Refusal::Ambiguous { apart_deg: other.apart.1.to_degrees() })
 }

@@ -1,7 +1,6 @@
 //! An arm is one thing, and so is its end-effector.
 
 use eyebolt_geometry::{DepthImage, RayTable};
-use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Points of an end-effector nearer to each other than about this belong together: single linkage, which on
@@ -18,9 +17,6 @@ type Cell = [i32; 3];
 
 /// Leaves their labels to the largest cluster of the points whose label is `of`, by its area, and gives the
 /// others `instead`.
-///
-/// Points belong together that are near each other, or beside each other in the image: a forearm before its
-/// upper arm is far from what it hides, and touches it.
 pub fn keep_largest_cluster(
     label: &mut [u8],
     depth: &DepthImage,
@@ -29,6 +25,32 @@ pub fn keep_largest_cluster(
     of: impl Fn(u8) -> bool,
     instead: u8,
 ) {
+    let clusters = clusters_by_area(label, depth, rays, linkage_m, of);
+    for at in clusters.iter().skip(1).flat_map(|cluster| &cluster.pixels) {
+        label[*at] = instead;
+    }
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug, Default)]
+pub struct Cluster {
+    /// Their pixels, in order.
+    pub pixels: Vec<usize>,
+    /// Pixels times their depths squared: an area, but for the camera's focal length.
+    pub area: f64,
+}
+
+/// Clusters of the points whose label is `of`, the largest first.
+///
+/// Points belong together that are near each other, or beside each other in the image: a forearm before its
+/// upper arm is far from what it hides, and touches it.
+pub fn clusters_by_area(
+    label: &[u8],
+    depth: &DepthImage,
+    rays: &RayTable,
+    linkage_m: f32,
+    of: impl Fn(u8) -> bool,
+) -> Vec<Cluster> {
     // Half the length: cells that touch hold points within it.
     let cell = |at: usize| {
         let point = rays.point(at, depth.depth_m()[at]);
@@ -43,16 +65,15 @@ pub fn keep_largest_cluster(
     }
     let mut clusters = clusters(&areas);
     join_neighbours(&mut clusters, &points, depth.width() as usize);
-    let mut sizes: BTreeMap<usize, f64> = BTreeMap::new();
-    areas.iter().for_each(|(cell, area)| *sizes.entry(clusters[cell]).or_default() += area);
-    // The first of equally large ones.
-    let largest = |a: &(&usize, &f64), b: &(&usize, &f64)| {
-        a.1.total_cmp(b.1).then(Reverse(a.0).cmp(&Reverse(b.0)))
-    };
-    let Some((&best, _)) = sizes.iter().max_by(largest) else { return };
-    for (at, _) in points.iter().filter(|(_, cell)| clusters[cell] != best) {
-        label[*at] = instead;
+    let mut found: BTreeMap<usize, Cluster> = BTreeMap::new();
+    areas.iter().for_each(|(cell, area)| found.entry(clusters[cell]).or_default().area += area);
+    for (at, cell) in &points {
+        found.entry(clusters[cell]).or_default().pixels.push(*at);
     }
+    // A stable sort: the first of equally large ones stays first.
+    let mut found: Vec<Cluster> = found.into_values().collect();
+    found.sort_by(|a, b| b.area.total_cmp(&a.area));
+    found
 }
 
 /// The cluster of each cell: cells that touch, corners included, belong together. Clusters are numbered

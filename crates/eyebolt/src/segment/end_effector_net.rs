@@ -21,13 +21,13 @@ pub struct EndEffectorNet {
 }
 
 /// What is found in a window.
-struct Found {
+pub(super) struct Found {
     image: Thinned,
     part: Part,
     window: Window,
     logits: Matrix,
     /// Area of the end-effector, as its pixels times their depths squared, by how sure the network is of each.
-    area: f64,
+    pub(super) area: f64,
     /// Middle of it, camera frame, metres; that of the window if there is none.
     middle: [f32; 3],
 }
@@ -71,18 +71,49 @@ impl EndEffectorNet {
         rays: &RayTable,
         label: &mut [u8],
     ) -> Result<(), SegmentError> {
-        let mut best: Option<Found> = None;
-        for place in self.places(depth, rays, label) {
-            let found = self.look(depth, camera, place)?;
-            let area = best.as_ref().map_or(0.0, |best| best.area);
-            best = found.filter(|found| found.area > area).or(best);
-        }
+        let found = self.found(depth, camera, rays, label)?;
         label.iter_mut().filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);
-        let Some(mut best) = best else { return Ok(()) };
-        if let Some(again) = self.look(depth, camera, best.middle)? {
-            best = if again.area >= (1.0 - LESS) * best.area { again } else { best };
+        match found.into_iter().next() {
+            Some(best) => self.paint(depth, camera, best, label),
+            None => Ok(()),
         }
-        let Found { image, part, window, logits, middle, .. } = &best;
+    }
+
+    /// What may be the end-effector, where `label` has it and all along the arm: the surest first, each a window apart
+    /// from those before.
+    pub(super) fn found(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        rays: &RayTable,
+        label: &[u8],
+    ) -> Result<Vec<Found>, SegmentError> {
+        let mut all = Vec::new();
+        for place in self.places(depth, rays, label) {
+            all.extend(self.look(depth, camera, place)?.filter(|found| found.area > 0.0));
+        }
+        all.sort_by(|a: &Found, b| b.area.total_cmp(&a.area));
+        let mut apart: Vec<Found> = Vec::new();
+        for found in all {
+            let near = |other: &Found| off(other.middle, found.middle) < self.half_m.powi(2);
+            if !apart.iter().any(near) {
+                apart.push(found);
+            }
+        }
+        Ok(apart)
+    }
+
+    /// Labels the pixels of what was `found`, which is looked at again from its middle.
+    pub(super) fn paint(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        found: Found,
+        label: &mut [u8],
+    ) -> Result<(), SegmentError> {
+        let again = self.look(depth, camera, found.middle)?;
+        let again = again.filter(|again| again.area >= (1.0 - LESS) * found.area);
+        let Found { image, part, window, logits, middle, .. } = &again.unwrap_or(found);
         let range = middle[2] - self.half_m..middle[2] + self.half_m;
         upsample(depth, (image, &window.pixels, logits), part, &range, label);
         Ok(())
@@ -98,12 +129,8 @@ impl EndEffectorNet {
             let cube = point.map(|value| (value / self.half_m).floor() as i32);
             cubes.entry(cube).or_default().push(point);
         }
-        let farther = |place: &[f32; 3]| {
-            let off = |found: [f32; 3]| {
-                (0..3).map(|axis| (place[axis] - found[axis]).powi(2)).sum::<f32>()
-            };
-            found.is_none_or(|found| off(found) > self.half_m.powi(2))
-        };
+        let farther =
+            |place: &[f32; 3]| found.is_none_or(|found| off(*place, found) > self.half_m.powi(2));
         let along = cubes.into_values().filter_map(middle).filter(farther);
         found.into_iter().chain(along).collect()
     }
@@ -128,6 +155,11 @@ impl EndEffectorNet {
         let middle = middle(sure.iter().map(|(at, _)| image.point(*at))).unwrap_or(place);
         Ok(Some(Found { image, part, window, logits, area, middle }))
     }
+}
+
+/// Squared distance, square metres.
+fn off(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum()
 }
 
 /// By how much the end-effector is likelier than not, 0 to 1, by a row of logits.

@@ -37,6 +37,15 @@ pub enum SegmentError {
         /// What is wrong there.
         source: Box<SegmentError>,
     },
+    /// The networks do not tell the end-effector.
+    #[error(
+        "{}: the model tells the arm, but not its end-effector. Teach one for this robot with eyebolt train",
+        folder.display()
+    )]
+    NoEndEffector {
+        /// The folder of the model.
+        folder: PathBuf,
+    },
     /// Image and camera are of different sizes.
     #[error("the depth image has {found:?} pixels, its camera {camera:?}")]
     Size {

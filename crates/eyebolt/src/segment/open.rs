@@ -26,6 +26,19 @@ impl Segmenter {
         let net = EndEffectorNet::new(read(&near)?).map_err(|error| error.of(&near))?;
         Ok(segmenter.with_end_effector(net))
     }
+
+    /// As [`Self::open`], of a model that tells the end-effector.
+    ///
+    /// # Errors
+    ///
+    /// As there; a model that does not.
+    pub fn open_for_end_effector(folder: &Path) -> Result<Self, SegmentError> {
+        let segmenter = Self::open(folder)?;
+        match segmenter.tells_end_effector() {
+            true => Ok(segmenter),
+            false => Err(SegmentError::NoEndEffector { folder: folder.to_owned() }),
+        }
+    }
 }
 
 fn read(folder: &Path) -> Result<Model, SegmentError> {

@@ -1,7 +1,9 @@
 //! From a depth image to labels of its pixels.
 
 use super::classes::{ARM, BACKGROUND, END_EFFECTOR, UNKNOWN};
-use super::cluster::{ARM_LINKAGE_M, END_EFFECTOR_LINKAGE_M, keep_largest_cluster};
+use super::cluster::{
+    ARM_LINKAGE_M, Cluster, END_EFFECTOR_LINKAGE_M, clusters_by_area, keep_largest_cluster,
+};
 use super::end_effector_net::EndEffectorNet;
 use super::error::SegmentError;
 use super::features::FEATURES;
@@ -32,7 +34,18 @@ pub struct Segmentation {
     pub height: usize,
     /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`UNKNOWN`].
     pub label: Vec<u8>,
+    /// The same by the network of whole frames alone.
+    pub whole: Vec<u8>,
 }
+
+impl Segmentation {
+    fn new(of: &DepthImage, label: Vec<u8>, whole: Vec<u8>) -> Self {
+        Self { width: of.width() as usize, height: of.height() as usize, label, whole }
+    }
+}
+
+/// An arm may be among so many of the largest things that look like parts of one.
+const CLUSTERS: usize = 3;
 
 impl Segmenter {
     /// From the text of a `model.toml` and the bytes of its weights.
@@ -87,35 +100,103 @@ impl Segmenter {
         depth: &DepthImage,
         camera: &PinholeCamera,
     ) -> Result<Segmentation, SegmentError> {
+        let (whole, table) = self.whole(depth, camera)?;
+        let mut label = whole.clone();
+        keep_largest_cluster(&mut label, depth, &table, ARM_LINKAGE_M, is_arm, BACKGROUND);
+        keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, is_hand, ARM);
+        if let Some(net) = &mut self.end_effector {
+            net.refine(depth, camera, &table, &mut label)?;
+            keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, is_hand, ARM);
+        }
+        self.rays = Some((camera.clone(), table));
+        Ok(Segmentation::new(depth, label, whole))
+    }
+
+    /// What else the labels may be: with the end-effector elsewhere on the arm, or on something else that looks like a
+    /// part of an arm, the likeliest first, `most` at most. None without a network that looks at it from near.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::segment`].
+    pub fn alternatives(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        most: usize,
+    ) -> Result<Vec<Segmentation>, SegmentError> {
+        let (whole, table) = self.whole(depth, camera)?;
+        let mut labelled = Vec::new();
+        if let Some(net) = &mut self.end_effector {
+            let clusters = clusters_by_area(&whole, depth, &table, ARM_LINKAGE_M, is_arm);
+            let mut found = Vec::new();
+            for (rank, cluster) in clusters.iter().take(CLUSTERS).enumerate() {
+                let places = net.found(depth, camera, &table, &only(cluster, &whole))?;
+                // The first of all is what `segment` has.
+                found.extend(
+                    places.into_iter().skip(usize::from(rank == 0)).map(|it| (cluster, it)),
+                );
+            }
+            found.sort_by(|(_, a), (_, b)| b.area.total_cmp(&a.area));
+            for (cluster, place) in found.into_iter().take(most) {
+                let mut label = only(cluster, &whole);
+                label.iter_mut().filter(|label| is_hand(**label)).for_each(|label| *label = ARM);
+                net.paint(depth, camera, place, &mut label)?;
+                keep_largest_cluster(
+                    &mut label,
+                    depth,
+                    &table,
+                    END_EFFECTOR_LINKAGE_M,
+                    is_hand,
+                    ARM,
+                );
+                labelled.push(Segmentation::new(depth, label, whole.clone()));
+            }
+        }
+        self.rays = Some((camera.clone(), table));
+        Ok(labelled)
+    }
+
+    /// Labels by the network of whole frames alone, and the rays of the camera.
+    fn whole(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+    ) -> Result<(Vec<u8>, RayTable), SegmentError> {
         let (found, size) = ((depth.width(), depth.height()), (camera.width(), camera.height()));
         if found != size {
             return Err(SegmentError::Size { found, camera: size });
         }
         let (width, height) = (depth.width() as usize, depth.height() as usize);
-        let image = Thinned::new(depth, camera, self.grid.columns());
-        let rows: Vec<usize> = image.seen().collect();
-        if rows.is_empty() {
-            return Ok(Segmentation { width, height, label: vec![UNKNOWN; width * height] });
-        }
-        let batch = self.grid.batch(&self.model.graph, &[&image])?;
-        let Model { graph, parameters, .. } = &self.model;
-        let outputs = self.executor.infer(graph, parameters, &batch)?;
-        let mut label = vec![UNKNOWN; width * height];
-        let all = (&image, rows.as_slice(), &outputs[0]);
-        upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut label);
         let table = match self.rays.take() {
             Some((of, table)) if of == *camera => table,
             _ => RayTable::new(camera),
         };
-        let arm = |label| label == ARM || label == END_EFFECTOR;
-        keep_largest_cluster(&mut label, depth, &table, ARM_LINKAGE_M, arm, BACKGROUND);
-        let hand = |label| label == END_EFFECTOR;
-        keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, hand, ARM);
-        if let Some(net) = &mut self.end_effector {
-            net.refine(depth, camera, &table, &mut label)?;
-            keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, hand, ARM);
+        let mut label = vec![UNKNOWN; width * height];
+        let image = Thinned::new(depth, camera, self.grid.columns());
+        let rows: Vec<usize> = image.seen().collect();
+        if !rows.is_empty() {
+            let batch = self.grid.batch(&self.model.graph, &[&image])?;
+            let Model { graph, parameters, .. } = &self.model;
+            let outputs = self.executor.infer(graph, parameters, &batch)?;
+            let all = (&image, rows.as_slice(), &outputs[0]);
+            upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut label);
         }
-        self.rays = Some((camera.clone(), table));
-        Ok(Segmentation { width, height, label })
+        Ok((label, table))
     }
+}
+
+/// The labels of a cluster of the arm, as if nothing else were the arm.
+fn only(cluster: &Cluster, whole: &[u8]) -> Vec<u8> {
+    let background = |label: &u8| if is_arm(*label) { BACKGROUND } else { *label };
+    let mut label: Vec<u8> = whole.iter().map(background).collect();
+    cluster.pixels.iter().for_each(|at| label[*at] = whole[*at]);
+    label
+}
+
+fn is_arm(label: u8) -> bool {
+    label == ARM || label == END_EFFECTOR
+}
+
+fn is_hand(label: u8) -> bool {
+    label == END_EFFECTOR
 }

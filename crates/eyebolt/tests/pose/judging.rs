@@ -1,7 +1,9 @@
 //! What a frame says of a pose, without any network.
 
 use crate::scene::{SHAPE, Truth, frames};
-use eyebolt::pose::{Judge, Observed, PoseHypothesis, Source, half_turns, with_translation};
+use eyebolt::pose::{
+    Comparison, Judge, Observed, PoseHypothesis, Source, half_turns, with_translation,
+};
 use eyebolt_geometry::Transform;
 use nalgebra::Vector3;
 
@@ -36,6 +38,26 @@ fn the_true_pose_is_supported_best() {
         }
     }
     assert!(seen >= 5, "{seen}");
+}
+
+/// A frame speaks for the true pose against others, as much as it speaks against them for it.
+#[test]
+fn two_poses_are_compared_alike_either_way() {
+    for truth in frames("paper-test-p1") {
+        let Some(observed) = observed(&truth) else { continue };
+        let posture = SHAPE.posture(&truth.joints);
+        let mut judge = Judge::new(&SHAPE, &observed);
+        let mut between =
+            |a, b| Comparison::between(&mut judge, (&posture, a), (&posture, b), 0.004);
+        let itself = between(&truth.pose, &truth.pose);
+        assert!(itself.advantage == 0.0 && itself.deviation == 0.0, "{itself:?}");
+        let turn = truth.pose.rotation();
+        let moved = Transform::from_parts(truth.pose.translation_m() + 0.02 * Vector3::z(), turn);
+        let (own, other) = (between(&truth.pose, &moved), between(&moved, &truth.pose));
+        assert!(own.advantage > 4.0 * own.deviation, "{own:?}");
+        assert!((own.advantage + other.advantage).abs() < 1e-6 * own.advantage);
+        assert_eq!((own.deviation, own.pixels), (other.deviation, other.pixels));
+    }
 }
 
 /// To millimetres; but for what the arm hides of its own hand, which is not drawn.

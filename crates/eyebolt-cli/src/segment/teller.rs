@@ -1,0 +1,62 @@
+//! Who tells which pixels are what.
+
+use crate::output;
+use anyhow::Result;
+use eyebolt::pose::{EndEffectorShape, PoseError, RecognizeError, Recognizer};
+use eyebolt::segment::{Segmentation, Segmenter};
+use eyebolt_geometry::{DepthImage, PinholeCamera};
+use eyebolt_registration::LinkCache;
+use eyebolt_robot::Arm;
+use std::path::Path;
+
+/// Who tells which pixels are what.
+pub enum Teller {
+    /// Networks alone.
+    Networks(Box<Segmenter>),
+    /// Networks, and the pose of the end-effector that explains what they say.
+    Posed(Box<Recognizer>),
+}
+
+impl Teller {
+    /// Networks alone, of the folder of a model.
+    pub fn networks(model: &Path) -> Result<Self> {
+        Ok(Self::Networks(Box::new(Segmenter::open(model)?)))
+    }
+
+    /// All networks of a model, if it has those for poses and the robot is known: any arm can be told from the rest without.
+    pub fn posed(model: &Path, arm: Result<Arm>, cache: &LinkCache) -> Result<Self> {
+        let alone = Self::networks(model)?;
+        if !alone.tells_end_effector() {
+            return Ok(alone);
+        }
+        let shape = match arm.and_then(|arm| Ok(EndEffectorShape::of(&arm, cache)?)) {
+            Ok(shape) => shape,
+            Err(error) => {
+                output::complain(&format!(
+                    "note: the labels are the networks' alone, since the end-effector's shape is not known: {error:#}"
+                ));
+                return Ok(alone);
+            }
+        };
+        match Recognizer::open(model, shape) {
+            Err(RecognizeError::Pose(PoseError::NoNetwork { .. })) => Ok(alone),
+            opened => Ok(Self::Posed(Box::new(opened?))),
+        }
+    }
+
+    /// Whether the end-effector is told apart.
+    pub fn tells_end_effector(&self) -> bool {
+        match self {
+            Self::Networks(segmenter) => segmenter.tells_end_effector(),
+            Self::Posed(_) => true,
+        }
+    }
+
+    /// Labels of a frame.
+    pub fn label(&mut self, depth: &DepthImage, camera: &PinholeCamera) -> Result<Segmentation> {
+        Ok(match self {
+            Self::Networks(segmenter) => segmenter.segment(depth, camera)?,
+            Self::Posed(recognizer) => recognizer.recognize(depth, camera, &[])?.segmentation,
+        })
+    }
+}

@@ -1,0 +1,163 @@
+//! Where the end-effector is, and which pixels are of it, by what each says of the other.
+
+use super::estimator::{PoseAnswer, PoseEstimator};
+use super::shape::EndEffectorShape;
+use super::{PoseError, PoseMethod};
+use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, SegmentError, Segmentation, Segmenter};
+use eyebolt_geometry::{Base, Camera, DepthImage, PinholeCamera, Transform};
+use eyebolt_registration::Posture;
+use eyebolt_render::Raster;
+use std::path::Path;
+
+/// Networks that tell the end-effector's pixels, held against the shape that they should show.
+///
+/// A network is easily wrong about where a hand ends, and sometimes about where it is. Its shape fits only where it is: what
+/// a pose explains is labelled by that pose, and if none fits, the hand is looked for elsewhere.
+#[derive(Debug)]
+pub struct Recognizer {
+    segmenter: Segmenter,
+    estimator: PoseEstimator,
+    raster: Option<(PinholeCamera, Raster)>,
+}
+
+/// What a frame shows.
+#[derive(Clone, Debug)]
+pub struct Recognized {
+    /// Labels of its pixels.
+    pub segmentation: Segmentation,
+    /// Where the end-effector is, from these labels; `None` if too little of it is in view.
+    pub answer: Option<PoseAnswer>,
+}
+
+/// Why a frame cannot be looked at.
+#[derive(Debug, thiserror::Error)]
+pub enum RecognizeError {
+    /// Of the networks that tell pixels.
+    #[error(transparent)]
+    Segment(#[from] SegmentError),
+    /// Of those that tell poses.
+    #[error(transparent)]
+    Pose(#[from] PoseError),
+}
+
+/// Other places where the end-effector is looked for.
+const ELSEWHERE: usize = 4;
+/// Depth this far from the posed shape is not of it, as a share of its extent: fingers may be a little more open.
+const ON_SHAPE: f64 = 0.06;
+
+impl Recognizer {
+    /// By these networks.
+    pub fn new(segmenter: Segmenter, estimator: PoseEstimator) -> Self {
+        Self { segmenter, estimator, raster: None }
+    }
+
+    /// By all the networks in the folder of a model that `eyebolt train` made for `shape`.
+    ///
+    /// # Errors
+    ///
+    /// Files that are not there, broken, or of something else; a model that does not tell the end-effector, or not its pose.
+    pub fn open(folder: &Path, shape: EndEffectorShape) -> Result<Self, RecognizeError> {
+        let segmenter = Segmenter::open_for_end_effector(folder)?;
+        Ok(Self::new(segmenter, PoseEstimator::open(folder, shape, PoseMethod::Fused)?))
+    }
+
+    /// What `depth`, which `camera` saw, shows: its end-effector with its links in one of `postures`; if there is none, with
+    /// its fingers at one of a few openings.
+    ///
+    /// # Errors
+    ///
+    /// Image and camera of different sizes; no memory.
+    pub fn recognize(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        postures: &[Posture],
+    ) -> Result<Recognized, RecognizeError> {
+        let segmentation = self.segmenter.segment(depth, camera)?;
+        let first = self.posed(depth, camera, segmentation, postures)?;
+        if is_supported(&first) {
+            return self.labelled_again(depth, camera, first, postures);
+        }
+        for segmentation in self.segmenter.alternatives(depth, camera, ELSEWHERE)? {
+            let other = self.posed(depth, camera, segmentation, postures)?;
+            if other.answer.as_ref().is_some_and(|answer| answer.refusal.is_none()) {
+                return self.labelled_again(depth, camera, other, postures);
+            }
+        }
+        let label = &first.segmentation.label;
+        let answer = self.estimator.estimate_anyhow(depth, camera, label, postures);
+        match answer.filter(PoseAnswer::may_be_right) {
+            Some(answer) => {
+                let found = Recognized { answer: Some(answer), ..first };
+                self.labelled_again(depth, camera, found, postures)
+            }
+            None => Ok(first),
+        }
+    }
+
+    fn posed(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        segmentation: Segmentation,
+        postures: &[Posture],
+    ) -> Result<Recognized, RecognizeError> {
+        let answer = self.estimator.estimate_at(depth, camera, &segmentation.label, postures)?;
+        Ok(Recognized { segmentation, answer })
+    }
+
+    /// With the labels that the pose says, and the pose that these say; as it was if that is not supported.
+    fn labelled_again(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        found: Recognized,
+        postures: &[Posture],
+    ) -> Result<Recognized, RecognizeError> {
+        let Some(answer) = &found.answer else { return Ok(found) };
+        let label = self.label_at(depth, camera, &found.segmentation, answer);
+        let segmentation = Segmentation { label, ..found.segmentation.clone() };
+        let again = self.posed(depth, camera, segmentation, postures)?;
+        Ok(if is_supported(&again) { again } else { found })
+    }
+
+    /// Labels as the posed shape has them: its pixels are the end-effector, and what else was taken for it is what the
+    /// network of whole frames takes it for.
+    fn label_at(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        found: &Segmentation,
+        answer: &PoseAnswer,
+    ) -> Vec<u8> {
+        let mut raster = match self.raster.take() {
+            Some((of, raster)) if of == *camera => raster,
+            _ => Raster::new(camera),
+        };
+        let shape = self.estimator.shape();
+        let pose =
+            Transform::<Camera, Base>::from_isometry(*answer.camera_from_end_effector.isometry());
+        let meshes = answer.posture.meshes(&shape.model, &pose);
+        raster.draw(camera, &meshes);
+        let beneath = |whole: u8| if whole == BACKGROUND { BACKGROUND } else { ARM };
+        let reach_m = (ON_SHAPE * shape.extent_m()) as f32;
+        let labels = found.label.iter().zip(&found.whole).enumerate();
+        let label = labels.map(|(at, (label, whole))| {
+            let (seen, drawn) = (depth.depth_m()[at], raster.depth_m(at));
+            let on_it = seen > 0.0 && drawn.is_some_and(|drawn| (seen - drawn).abs() < reach_m);
+            match *label {
+                _ if on_it => END_EFFECTOR,
+                END_EFFECTOR => beneath(*whole),
+                other => other,
+            }
+        });
+        let label = label.collect();
+        self.raster = Some((camera.clone(), raster));
+        label
+    }
+}
+
+/// Whether the shape explains what was seen, even if it is not known which way it is turned.
+fn is_supported(found: &Recognized) -> bool {
+    found.answer.as_ref().is_some_and(PoseAnswer::may_be_right)
+}
