@@ -27,7 +27,7 @@ pub struct PoseEstimator {
 }
 
 /// A pose, and how far to trust it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PoseAnswer {
     /// The likeliest pose.
     pub camera_from_end_effector: Transform<Camera, EndEffector>,
@@ -35,8 +35,8 @@ pub struct PoseAnswer {
     pub source: Source,
     /// How far off it is likely to be; `None` of a pose that is not refined.
     pub expected_error: Option<ExpectedError>,
-    /// Where the links of the end-effector are then.
-    pub posture: Posture,
+    /// With its links in which of the postures that were given, or of [`EndEffectorShape::openings`].
+    pub opening: usize,
     /// What the frame says of it.
     pub support: Support,
     /// Other poses that were refined and held against it, likeliest first.
@@ -127,7 +127,8 @@ impl PoseEstimator {
         answer(&contest, &contest.ranked(hypotheses))
     }
 
-    fn openings(&self, postures: &[Posture]) -> Vec<Posture> {
+    /// `postures`, or those that the end-effector may have where none is known.
+    pub(super) fn openings(&self, postures: &[Posture]) -> Vec<Posture> {
         match postures {
             [] => self.shape.openings(),
             known => known.to_vec(),
@@ -215,7 +216,7 @@ fn as_it_is(contest: &Contest<'_>, first: &PoseHypothesis) -> PoseAnswer {
         camera_from_end_effector: Transform::from_isometry(*first.pose.isometry()),
         source: first.source,
         expected_error: None,
-        posture: contest.openings[0].clone(),
+        opening: 0,
         support: judge.support(&contest.openings[0], &first.pose, 3.0 * COARSE_M),
         rivals: Vec::new(),
         refusal: None,
@@ -239,7 +240,7 @@ fn answer(contest: &Contest<'_>, judged: &[Judged]) -> Option<PoseAnswer> {
     Some(PoseAnswer {
         camera_from_end_effector: pose(best),
         source: best.hypothesis.source,
-        posture: contest.openings[best.opening].clone(),
+        opening: best.opening,
         expected_error,
         support: best.support,
         rivals,

@@ -21,7 +21,7 @@ pub struct Recognizer {
 }
 
 /// What a frame shows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Recognized {
     /// Labels of its pixels.
     pub segmentation: Segmentation,
@@ -115,7 +115,9 @@ impl Recognizer {
         postures: &[Posture],
     ) -> Result<Recognized, RecognizeError> {
         let Some(answer) = &found.answer else { return Ok(found) };
-        let label = self.label_at(depth, camera, &found.segmentation, answer);
+        let openings = self.estimator.openings(postures);
+        let Some(posture) = openings.get(answer.opening) else { return Ok(found) };
+        let label = self.label_at(depth, camera, &found.segmentation, (answer, posture));
         let segmentation = Segmentation { label, ..found.segmentation.clone() };
         let again = self.posed(depth, camera, segmentation, postures)?;
         Ok(if is_supported(&again) { again } else { found })
@@ -128,7 +130,7 @@ impl Recognizer {
         depth: &DepthImage,
         camera: &PinholeCamera,
         found: &Segmentation,
-        answer: &PoseAnswer,
+        (answer, posture): (&PoseAnswer, &Posture),
     ) -> Vec<u8> {
         let mut raster = match self.raster.take() {
             Some((of, raster)) if of == *camera => raster,
@@ -137,7 +139,7 @@ impl Recognizer {
         let shape = self.estimator.shape();
         let pose =
             Transform::<Camera, Base>::from_isometry(*answer.camera_from_end_effector.isometry());
-        let meshes = answer.posture.meshes(&shape.model, &pose);
+        let meshes = posture.meshes(&shape.model, &pose);
         raster.draw(camera, &meshes);
         let beneath = |whole: u8| if whole == BACKGROUND { BACKGROUND } else { ARM };
         let reach_m = (ON_SHAPE * shape.extent_m()) as f32;
