@@ -10,7 +10,7 @@ const EXAMPLES: &str = "\
 Camera's file:
   A calibration of eyebolt, or JSON of what you measured with a tape, to a hand's breadth and a few degrees:
 
-    {\"camera_from_base\": {\"translation_m\": [0.1, 0.3, 1.2], \"rotation_xyzw\": [0.66, -0.66, 0.25, -0.25]},
+    {\"camera_from_base\": {\"translation_m\": [0.05, 0.04, 1.31], \"rotation_xyzw\": [0.776, 0.421, -0.403, 0.241]},
      \"intrinsics\": {\"width\": 640, \"height\": 480, \"fx\": 590, \"fy\": 590, \"cx\": 320, \"cy\": 240},
      \"range_m\": [0.3, 3.0]}
 

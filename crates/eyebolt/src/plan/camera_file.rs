@@ -138,7 +138,7 @@ fn calibrated(
 impl RawPose {
     fn checked(self) -> Result<Transform<Camera, Base>, String> {
         let length = self.rotation_xyzw.iter().map(|q| q * q).sum::<f64>().sqrt();
-        let is_unit = (length - 1.0).abs() <= 1e-3;
+        let is_unit = (length - 1.0).abs() <= 0.02;
         if !is_unit {
             return Err(format!("rotation_xyzw: its length is {length}, not 1"));
         }

@@ -40,7 +40,11 @@ pub(super) fn timed(ways: &[Vec<Positions>], speed: &Speed, rest_s: f64) -> Vec<
                 let along = part as f64 / parts as f64;
                 points.push(TimedPoint {
                     at_s: now_s + along * takes_s,
-                    positions: between(&pair[0], &pair[1], along * along * (3.0 - 2.0 * along)),
+                    // To the last bit where the way ends.
+                    positions: match part == parts {
+                        true => pair[1].clone(),
+                        false => between(&pair[0], &pair[1], along * along * (3.0 - 2.0 * along)),
+                    },
                     velocities: pair[0]
                         .iter()
                         .zip(&pair[1])
