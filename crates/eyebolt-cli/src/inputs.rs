@@ -179,6 +179,15 @@ impl RobotArguments {
         self.arm_of(robot, recording)
     }
 
+    /// The arm that the flags name; `None` if they name no robot.
+    pub fn arm_alone(&self) -> Result<Option<Arm>> {
+        let Some(name) = &self.robot else { return Ok(None) };
+        let Described { robot, about, .. } = self.description.named(name)?;
+        let base = self.base.as_ref().or(about.as_ref().map(|about| &about.base));
+        let hand = self.end_effector.as_ref().or(about.as_ref().map(|about| &about.end_effector));
+        Ok(Some(robot.arm(base.map(String::as_str), hand.map(String::as_str))?))
+    }
+
     /// Better told once than of each recording: a robot that is named and cannot be read.
     pub fn check_named(&self) -> Result<()> {
         self.robot.as_ref().map(|name| self.description.named(name)).transpose()?;

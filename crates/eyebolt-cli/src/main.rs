@@ -17,6 +17,7 @@ mod man;
 mod monitor;
 mod names;
 mod output;
+mod plan;
 mod pose;
 mod progress;
 mod record_command;
@@ -36,7 +37,7 @@ use std::process::ExitCode;
 /// Calibrates a depth camera against a robot arm: no markers, no initial guess, nobody labelling.
 ///
 /// Exit status: 0 trusted (of info: ready), 1 something could not be read or written, 2 wrong usage,
-/// 3 refused (of info: not ready; of monitor: something moved).
+/// 3 refused (of info: not ready; of monitor: something moved; of plan: fewer than asked for).
 #[derive(Debug, Parser)]
 #[command(name = "eyebolt", version, max_term_width = 100)]
 struct Arguments {
@@ -113,6 +114,12 @@ enum Command {
     /// An alarm says how far the arm is from where the calibration has it, and what moved, as far as that can be told. A
     /// new calibration is proposed, never applied. Exit status 3 with an alarm.
     Monitor(Box<monitor::Arguments>),
+    /// Say which configurations to record next: those that tell most of where the camera is
+    ///
+    /// Each is within the joints' limits, in view, free of the arm itself, the table and what the camera saw, and so is the
+    /// way to it. eyebolt moves no arm by itself: the plan is a file for whoever does. Exit status 3 if there are fewer than
+    /// asked for.
+    Plan(Box<plan::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
     /// Print what makes a shell complete commands and flags: `eyebolt completions bash > FILE`
@@ -146,6 +153,7 @@ fn main() -> ExitCode {
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
         Command::Man(arguments) => man::run(&arguments, Arguments::command()),

@@ -11,7 +11,9 @@ pub(crate) use kind::{EvidenceKind, Factor};
 pub use kind::{Presentation, Reach};
 pub(crate) use kinds::KINDS;
 pub use kinds::presentation;
+pub(crate) use outlines::outline_jacobian;
 pub(crate) use posed::{PosedArm, PosedView, moved_by_base};
+pub(crate) use surfaces::{Spot, surface_jacobian};
 
 #[cfg(test)]
 mod tests;

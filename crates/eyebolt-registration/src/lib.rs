@@ -40,9 +40,10 @@ pub use intrinsics_offset::{INTRINSICS, IntrinsicsOffset};
 pub use link_model::LinkModel;
 pub use normal_equations::NormalEquations;
 pub use refine::{
-    ChangePoint, Doubt, Fit, LeftOut, OffsetDeviations, OffsetPrior, RefineOptions, RefineView,
-    Refinement, Residual, SHIFTS, ShiftDeviations, Start, StopReason, Trust, ViewEvidence, ViewFit,
-    change_point, refine, residuals, settle, view_evidence,
+    ChangePoint, Doubt, ExpectedNoise, Fit, LeftOut, OffsetDeviations, OffsetPrior, PREDICTED,
+    PredictedInformation, RefineOptions, RefineView, Refinement, Residual, SHIFTS, ShiftDeviations,
+    Start, StopReason, Trust, ViewEvidence, ViewFit, change_point, predicted_information, refine,
+    residuals, settle, view_evidence,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

@@ -114,6 +114,8 @@ pub struct Joint {
     pub axis: Unit<Vector3<f64>>,
     /// Limits of the position; `None` where the URDF gives none or the joint is continuous.
     pub limits: Option<JointLimits>,
+    /// How fast it may move, radians or metres a second; `None` where the URDF gives no speed above zero.
+    pub most_per_s: Option<f64>,
     /// The joint that this one follows, if any.
     pub mimic: Option<Mimic>,
 }

@@ -122,7 +122,8 @@ fn assemble(
         let parent_and_joint = parent.map(|parent| (parent, new_joints.len()));
         new_links.push(Link { name, parent: parent_and_joint, visuals, collisions });
         if let (Some(parent), Some(joint)) = (parent, joint) {
-            let Motion { kind, parent_from_child_at_zero, axis, limits, mimic } = joint.motion;
+            let Motion { kind, parent_from_child_at_zero, axis, limits, most_per_s, mimic } =
+                joint.motion;
             followed.push(mimic);
             let name = joint.name;
             new_joints.push(Joint {
@@ -133,6 +134,7 @@ fn assemble(
                 parent_from_child_at_zero,
                 axis,
                 limits,
+                most_per_s,
                 mimic: None,
             });
         }

@@ -291,6 +291,7 @@ impl Reader<'_> {
             parent_from_child_at_zero: self.origin(element)?,
             axis: axis(element, kind)?,
             limits: limits(element, kind)?,
+            most_per_s: most_per_s(element),
             mimic,
         })
     }
@@ -419,4 +420,10 @@ fn limits(element: &Element<'_, '_>, kind: JointKind) -> Result<Option<JointLimi
             Ok(Some(JointLimits { lower, upper }))
         }
     }
+}
+
+/// The limit of the velocity. Calibrations do without it, so that one that is no speed is none.
+fn most_per_s(element: &Element<'_, '_>) -> Option<f64> {
+    let limit = element.child("limit").ok()??;
+    limit.number("velocity").ok()?.filter(|velocity| velocity.is_finite() && *velocity > 0.0)
 }

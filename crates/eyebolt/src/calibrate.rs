@@ -16,7 +16,7 @@ mod verdict;
 pub use calibration::Calibration;
 pub use deviation::Deviation;
 pub use error::{ErrorEstimate, ErrorPart, ErrorSource};
-pub(crate) use error::{covariance_at, expected_at};
+pub(crate) use error::{covariance_at, expected as expected_of, expected_at};
 pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;

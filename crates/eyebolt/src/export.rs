@@ -30,6 +30,7 @@ mod tf2;
 mod urdf;
 
 pub use error::ExportError;
+pub(crate) use file::read_text;
 pub use format::Format;
 pub use frame_name::{BadFrameName, FrameName, Named};
 pub use note::Note;

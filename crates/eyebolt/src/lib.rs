@@ -23,6 +23,7 @@ pub mod observations;
 mod other_unit;
 pub mod paper;
 pub mod pipeline;
+pub mod plan;
 pub mod pose;
 pub mod progress;
 pub mod record;

@@ -34,7 +34,8 @@ mod true_view;
 mod viewpoint;
 mod with_marker;
 
-pub(crate) use body::{placed_links, rests};
+pub(crate) use body::{ArmBody, placed_links, rests};
+pub(crate) use configurations::{Onlooker, has_hand_in_view, shows_hand};
 pub use error::SimulateError;
 pub use faults::Faults;
 pub use lab::{Lab, SecondArm};

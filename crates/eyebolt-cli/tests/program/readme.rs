@@ -5,11 +5,12 @@ use crate::program::{CACHE, Ended, eyebolt, eyebolt_in};
 use std::fs;
 
 const README: &str = include_str!("../../../../README.md");
-const PAGES: [(&str, &str); 4] = [
+const PAGES: [(&str, &str); 5] = [
     ("README.md", README),
     ("docs/recordings.md", include_str!("../../../../docs/recordings.md")),
     ("docs/answer.md", include_str!("../../../../docs/answer.md")),
     ("docs/learning.md", include_str!("../../../../docs/learning.md")),
+    ("docs/plan.md", include_str!("../../../../docs/plan.md")),
 ];
 
 /// What is typed in the indented blocks of a page: arguments of the program.

@@ -9,6 +9,7 @@ use crate::silhouette::Silhouette;
 use crate::unknowns::{FIRST_INTRINSIC, FIRST_NUISANCE, OUTLINES, Unknowns};
 use eyebolt_geometry::PinholeCamera;
 use eyebolt_render::{ContourPoint, outer_contour};
+use nalgebra::{Point3, Vector3};
 
 /// Contour points looked at in a view.
 const CONTOUR_POINTS: usize = 1500;
@@ -87,7 +88,21 @@ pub(super) fn outline_factor(
         return None;
     }
     let by_stated = by_stated.tr_mul(&gradient.cast::<f64>());
-    let along = to_stated.tr_mul(&by_stated);
+    let link = contour.link as usize;
+    let jacobian = outline_jacobian(posed, link, &point, &by_stated);
+    let residual = f64::from(distance) + posed.state.nuisances[OUTLINES];
+    Some(Factor { residual, jacobian, link })
+}
+
+/// Derivative of a distance in the image of `point` of the contour of `link`, camera frame, which has the derivative
+/// `by_stated` by the point where the stated intrinsics have it.
+pub(crate) fn outline_jacobian(
+    posed: &PosedArm<'_>,
+    link: usize,
+    point: &Point3<f64>,
+    by_stated: &Vector3<f64>,
+) -> Unknowns {
+    let along = posed.state.intrinsics.stated_from_true().tr_mul(by_stated);
     let pose = posed.state.camera_from_base.isometry();
     let origin = pose.translation.vector;
     let mut jacobian = Unknowns::zeros();
@@ -99,9 +114,7 @@ pub(super) fn outline_factor(
         by_stated.y * point.z,
     ];
     jacobian.fixed_rows_mut::<INTRINSICS>(FIRST_INTRINSIC).copy_from_slice(&by_intrinsics);
-    let link = contour.link as usize;
-    let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(&point));
+    let (along, at) = (pose.inverse_transform_vector(&along), pose.inverse_transform_point(point));
     posed.by_joints(link, &along, &at, &mut jacobian);
-    let residual = f64::from(distance) + posed.state.nuisances[OUTLINES];
-    Some(Factor { residual, jacobian, link })
+    jacobian
 }

@@ -7,7 +7,7 @@ use super::kind::{EvidenceKind, Factor, Presentation, Reach};
 use super::posed::{PosedArm, PosedView, moved_by_base};
 use crate::intrinsics_offset::INTRINSICS;
 use crate::unknowns::{FIRST_INTRINSIC, FIRST_NUISANCE, SURFACES, Unknowns};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Residuals in metres.
 pub(crate) struct Surfaces;
@@ -86,11 +86,30 @@ pub(super) fn surface_factor(
     if normal.dot(&point) > 0.0 {
         return None;
     }
+    let spot = Spot { point, normal, point_in_base: point_in_base.cast(), normal_in_base };
+    let jacobian = surface_jacobian(posed, nearest.link, &spot);
+    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
+}
+
+/// A point of the arm's surface and its outward normal, in both frames.
+pub(crate) struct Spot {
+    /// Camera frame, metres; intrinsics and depth as they truly are.
+    pub point: Vector3<f64>,
+    pub normal: Vector3<f64>,
+    pub point_in_base: Point3<f64>,
+    pub normal_in_base: Vector3<f64>,
+}
+
+/// Derivative of the distance of what is seen at `spot` from the surface of `link` there.
+pub(crate) fn surface_jacobian(posed: &PosedArm<'_>, link: usize, spot: &Spot) -> Unknowns {
+    let Spot { point, normal, point_in_base, normal_in_base } = spot;
+    let state = posed.state;
+    let origin = state.camera_from_base.isometry().translation.vector;
     // The arm moves, not the point: the sign turns.
-    let by_base = moved_by_base(&-normal, &point, &pose.translation.vector);
+    let by_base = moved_by_base(&-normal, point, &origin);
     let mut jacobian = Unknowns::zeros();
     jacobian.fixed_rows_mut::<6>(0).copy_from_slice(&by_base);
-    jacobian[FIRST_NUISANCE + SURFACES] = normal.dot(&point) / (1.0 + state.nuisances[SURFACES]);
+    jacobian[FIRST_NUISANCE + SURFACES] = normal.dot(point) / (1.0 + state.nuisances[SURFACES]);
     let focal = 1.0 + state.intrinsics.focal;
     let by_intrinsics = [
         -(normal.x * point.x + normal.y * point.y) / focal,
@@ -98,6 +117,6 @@ pub(super) fn surface_factor(
         -normal.y * point.z / focal,
     ];
     jacobian.fixed_rows_mut::<INTRINSICS>(FIRST_INTRINSIC).copy_from_slice(&by_intrinsics);
-    posed.by_joints(nearest.link, &-normal_in_base, &point_in_base.cast(), &mut jacobian);
-    Some(Factor { residual: f64::from(nearest.distance_m), jacobian, link: nearest.link })
+    posed.by_joints(link, &-normal_in_base, point_in_base, &mut jacobian);
+    jacobian
 }

@@ -23,6 +23,7 @@ pub(crate) struct Motion {
     pub(crate) parent_from_child_at_zero: Transform<frame::Link, frame::Link>,
     pub(crate) axis: Unit<Vector3<f64>>,
     pub(crate) limits: Option<JointLimits>,
+    pub(crate) most_per_s: Option<f64>,
     pub(crate) mimic: Followed,
 }
 
@@ -34,6 +35,7 @@ impl Motion {
             parent_from_child_at_zero: Transform::identity(),
             axis: Vector3::x_axis(),
             limits: None,
+            most_per_s: None,
             mimic: None,
         }
     }

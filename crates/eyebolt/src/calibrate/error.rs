@@ -271,7 +271,7 @@ fn joint_sigma(
 }
 
 /// Root mean square of the errors that `covariance` lets one expect.
-fn expected(
+pub(crate) fn expected(
     covariance: &Matrix6<f64>,
     pose: &Transform<Camera, Base>,
     at_in_base: &Point3<f64>,

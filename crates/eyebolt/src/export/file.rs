@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// The text of the file at `path`, at most `limit` bytes.
-pub(super) fn read_text(path: &Path, limit: u64) -> Result<String, ExportError> {
+pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, ExportError> {
     let name = path.display().to_string();
     let failed = |cause| ExportError::Read { file: name.clone(), cause };
     let file = File::open(path).map_err(failed)?;

@@ -9,7 +9,7 @@ use nalgebra::Point3;
 ///
 /// Joints that follow others take no part, nor do those that are followed: their zeros are not one
 /// number.
-pub(super) fn offered(arm: &Arm, links: &[usize], model: ArmModel) -> (Vec<usize>, ArmModel) {
+pub(crate) fn offered(arm: &Arm, links: &[usize], model: ArmModel) -> (Vec<usize>, ArmModel) {
     let robot = arm.robot();
     let followed = |index: usize| {
         robot.joints.iter().any(|joint| joint.mimic.is_some_and(|mimic| mimic.joint == index))

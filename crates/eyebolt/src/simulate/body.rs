@@ -1,7 +1,6 @@
 //! An arm that can be posed, drawn and kept from bumping into things.
 
 use super::dress::Soft;
-use super::error::SimulateError;
 use super::scene::TABLE_BELOW_M;
 use super::solids::Solid;
 use super::table;
@@ -15,24 +14,24 @@ use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
 /// An arm with the shapes of its links.
-pub(super) struct ArmBody {
-    pub(super) arm: Arm,
+pub(crate) struct ArmBody {
+    pub(crate) arm: Arm,
     /// Which links of the robot the model's are.
-    pub(super) links: Vec<usize>,
-    pub(super) model: ArmModel,
+    pub(crate) links: Vec<usize>,
+    pub(crate) model: ArmModel,
     /// The links' surfaces as they are, not simplified.
     meshes: Vec<TriangleMesh>,
     /// Of the model's links, those of the end-effector.
-    pub(super) is_end_effector: Vec<bool>,
+    pub(crate) is_end_effector: Vec<bool>,
     /// Pairs of links that may not touch: not neighbours, and none that always do.
     apart: Vec<(usize, usize)>,
     /// How postures are drawn.
     draws: Vec<Draw>,
     /// Of the model's links, those that the joints of the chain and of the hand move. The others (what
     /// the arm stands on, wheels, a head, a second arm) stay where they are.
-    moved: Vec<bool>,
+    pub(crate) moved: Vec<bool>,
     /// Height of the table's top, base frame, metres.
-    table_m: f64,
+    pub(crate) table_m: f64,
     /// Around each of the model's links: centre in its frame, radius, metres.
     spheres: Vec<(Point3<f32>, f32)>,
 }
@@ -52,8 +51,17 @@ const TRIALS: u64 = 60;
 const MOSTLY: f64 = 0.5;
 
 impl ArmBody {
+    /// `arm` as it is described.
+    pub(crate) fn of_described(arm: Arm, cache: &LinkCache) -> Result<Self, record::RecordError> {
+        Self::new(arm, &[], cache)
+    }
+
     /// `arm` with `soft` parts on it, that are seen and give way.
-    pub(super) fn new(arm: Arm, soft: &[Soft], cache: &LinkCache) -> Result<Self, SimulateError> {
+    pub(super) fn new(
+        arm: Arm,
+        soft: &[Soft],
+        cache: &LinkCache,
+    ) -> Result<Self, record::RecordError> {
         let robot = arm.robot();
         let (links, model) = record::shapes(&arm, placed_links(&arm), cache)?;
         let meshes = links.iter().map(|index| {
@@ -88,7 +96,7 @@ impl ArmBody {
         Ok(body)
     }
 
-    pub(super) fn posture(&self, joints: &JointPositions) -> Option<Posture> {
+    pub(crate) fn posture(&self, joints: &JointPositions) -> Option<Posture> {
         let poses = self.arm.link_poses_with_defaults(joints).ok()?.base_from_links;
         let poses: Option<Vec<_>> = self.links.iter().map(|link| poses[*link]).collect();
         Some(Posture::new(&self.model, poses?))
@@ -136,7 +144,7 @@ impl ArmBody {
 
     /// Joint positions anywhere within their limits, fingers included; joints of other limbs stay where
     /// they are by default.
-    pub(super) fn any_joints(&self, random: &mut Random) -> JointPositions {
+    pub(crate) fn any_joints(&self, random: &mut Random) -> JointPositions {
         let drawn = self.draws.iter().map(|Draw { joint, between, default }| {
             let at = between.map_or(*default, |[low, high]| random.between(low, high));
             (joint.clone(), at)
@@ -144,16 +152,25 @@ impl ArmBody {
         drawn.collect()
     }
 
+    /// Between which positions, radians or metres, a joint is drawn that postures differ in; a little within its limits.
+    pub(crate) fn range(&self, joint: &str) -> Option<[f64; 2]> {
+        self.draws.iter().find(|draw| draw.joint == joint)?.between
+    }
+
     /// Whether the arm in `posture` touches itself or the table, or comes near to the camera.
     pub(super) fn bumps(&self, posture: &Posture, camera_in_base: &Point3<f64>) -> bool {
+        self.is_near(posture, camera_in_base) || self.sinks(posture) || self.touches_itself(posture)
+    }
+
+    /// Whether the arm in `posture` comes near to a camera.
+    pub(crate) fn is_near(&self, posture: &Posture, camera_in_base: &Point3<f64>) -> bool {
         const CAMERA_CLEARANCE_M: f32 = 0.3;
         let camera = camera_in_base.cast();
         posture.nearest_within(&self.model, &camera, CAMERA_CLEARANCE_M, 0).is_some()
-            || self.sinks(posture)
-            || self.touches_itself(posture)
     }
 
-    fn touches_itself(&self, posture: &Posture) -> bool {
+    /// Whether links in `posture` touch that should not.
+    pub(crate) fn touches_itself(&self, posture: &Posture) -> bool {
         let spheres = self.spheres_of(posture);
         self.apart.iter().any(|pair| self.touch(posture, &spheres, *pair))
     }
@@ -176,7 +193,8 @@ impl ArmBody {
         (0..self.links.len()).flat_map(move |link| self.link_surface(posture, link))
     }
 
-    fn link_surface<'b>(
+    /// Points all over link `link` of the model, base frame.
+    pub(crate) fn link_surface<'b>(
         &'b self,
         posture: &'b Posture,
         link: usize,
@@ -185,11 +203,21 @@ impl ArmBody {
         self.model.links()[link].model.surface.iter().map(move |s| pose * s.point)
     }
 
-    fn sinks(&self, posture: &Posture) -> bool {
+    /// Whether a link that moves touches the table in `posture`.
+    pub(crate) fn sinks(&self, posture: &Posture) -> bool {
         let table = self.table_m as f32 + CLEARANCE_M;
         (0..self.links.len())
             .filter(|link| self.moved[*link])
             .any(|link| self.link_surface(posture, link).any(|point| point.z < table))
+    }
+
+    /// Lets only joints called `moving` move from here on: links that none of them moves against each other may touch, as the
+    /// fingers of a closed hand do.
+    pub(crate) fn hold_all_but(&mut self, moving: &[&str]) {
+        let movers: Vec<Vec<usize>> =
+            self.links.iter().map(|link| movers(&self.arm, moving, *link)).collect();
+        self.apart.retain(|(a, b)| movers[*a] != movers[*b]);
+        self.moved = movers.iter().map(|movers| !movers.is_empty()).collect();
     }
 
     fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
@@ -309,19 +337,25 @@ fn are_apart((a, radius_a): (Point3<f32>, f32), (b, radius_b): (Point3<f32>, f32
 
 /// Whether one of the joints called `drawn` moves `link` in the base.
 fn is_moved(arm: &Arm, drawn: &[&str], link: usize) -> bool {
+    !movers(arm, drawn, link).is_empty()
+}
+
+/// Those joints between the base and `link` that are called one of `names`, or follow one, the last one first.
+fn movers(arm: &Arm, names: &[&str], link: usize) -> Vec<usize> {
     let robot = arm.robot();
+    let mut found = Vec::new();
     let mut at = link;
-    while let Some((parent, joint)) = robot.links[at].parent.filter(|_| at != arm.base()) {
-        let mut joint = &robot.joints[joint];
+    while let Some((parent, own)) = robot.links[at].parent.filter(|_| at != arm.base()) {
+        let mut joint = &robot.joints[own];
         while let Some(mimic) = joint.mimic {
             joint = &robot.joints[mimic.joint];
         }
-        if drawn.contains(&joint.name.as_str()) {
-            return true;
+        if names.contains(&joint.name.as_str()) {
+            found.push(own);
         }
         at = parent;
     }
-    false
+    found
 }
 
 /// Whether no joint moves `link`, which is below the base of `arm`, in the base.

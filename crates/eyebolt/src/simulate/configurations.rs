@@ -20,15 +20,15 @@ pub(super) struct Pose {
 }
 
 /// What looks on.
-pub(super) struct Onlooker<'a> {
-    pub(super) camera: &'a PinholeCamera,
-    pub(super) camera_from_base: Transform<Camera, Base>,
+pub(crate) struct Onlooker<'a> {
+    pub(crate) camera: &'a PinholeCamera,
+    pub(crate) camera_from_base: Transform<Camera, Base>,
     /// Nearest and farthest depth that it tells, metres.
-    pub(super) range_m: [f64; 2],
+    pub(crate) range_m: [f64; 2],
     /// What it multiplies true depth by, and adds to it, metres.
-    pub(super) told_m: [f64; 2],
+    pub(crate) told_m: [f64; 2],
     /// What may stand between it and the arm.
-    pub(super) room: &'a RayScene,
+    pub(crate) room: &'a RayScene,
 }
 
 /// Why one configuration is not fit.
@@ -140,13 +140,7 @@ fn good(
     joints: JointPositions,
     rasters: &mut [Raster; 2],
 ) -> Result<Pose, Fault> {
-    let in_range = |hand: &Point3<f64>| {
-        let ([near, far], [scale, offset_m]) = (onlooker.range_m, onlooker.told_m);
-        (1.1 * near..0.95 * far).contains(&(scale * hand.z + offset_m))
-    };
-    let hand = body.end_effector(&joints, &onlooker.camera_from_base).filter(in_range);
-    let pixel = hand.and_then(|hand| onlooker.camera.project(&hand));
-    if !pixel.is_some_and(|pixel| onlooker.camera.contains(&pixel)) {
+    if !has_hand_in_view(body, onlooker, &joints) {
         return Err(Fault::OutOfView);
     }
     let posture = body.posture(&joints).ok_or(Fault::OutOfView)?;
@@ -159,6 +153,21 @@ fn good(
         return Err(Fault::Hidden);
     }
     Ok(Pose { joints, posture })
+}
+
+/// Whether the end-effector's frame is in view and in range.
+pub(crate) fn has_hand_in_view(
+    body: &ArmBody,
+    onlooker: &Onlooker<'_>,
+    joints: &JointPositions,
+) -> bool {
+    let in_range = |hand: &Point3<f64>| {
+        let ([near, far], [scale, offset_m]) = (onlooker.range_m, onlooker.told_m);
+        (1.1 * near..0.95 * far).contains(&(scale * hand.z + offset_m))
+    };
+    let hand = body.end_effector(joints, &onlooker.camera_from_base).filter(in_range);
+    let pixel = hand.and_then(|hand| onlooker.camera.project(&hand));
+    pixel.is_some_and(|pixel| onlooker.camera.contains(&pixel))
 }
 
 /// Whether the room hides some of the arm, as a camera below the table has it.
@@ -186,7 +195,7 @@ const TURNED: f64 = 0.3;
 const BORDER_PX: f64 = 4.0;
 
 /// Whether the whole end-effector is in the image, not much hidden, and not seen from its thin side.
-fn shows_hand(
+pub(crate) fn shows_hand(
     body: &ArmBody,
     onlooker: &Onlooker<'_>,
     posture: &Posture,

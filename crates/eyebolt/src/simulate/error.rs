@@ -22,6 +22,14 @@ pub enum SimulateError {
         /// Why the others were not.
         rejected: Rejected,
     },
+    /// A configuration does not say where all joints of the arm are.
+    #[error(
+        "configuration {index} does not tell where all joints of the arm are; name each of them"
+    )]
+    Unposed {
+        /// Its place, from 0.
+        index: usize,
+    },
     /// A camera is bumped between two configurations, and there is one.
     #[error(
         "{}: the camera is bumped halfway, so give at least two {}",
@@ -51,7 +59,7 @@ impl SimulateError {
             Self::Unfit { rejected, .. } => Some(rejected.input()),
             Self::BumpOfOne => Some(Input::BUMP),
             Self::Intrinsics(_) => Some(Input::FOCAL_SCALE),
-            Self::Robot(_) | Self::Frame(_) | Self::Write(_) => None,
+            Self::Robot(_) | Self::Frame(_) | Self::Write(_) | Self::Unposed { .. } => None,
         }
     }
 }

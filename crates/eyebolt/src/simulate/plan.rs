@@ -57,14 +57,10 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
     let camera = scenario.sensor.camera();
     let stated_camera = scenario.faults.intrinsics().stated(&camera)?;
     let seed = scenario.seed;
-    let Seen { base_from_camera, room: mut solids, poses } = seen(&scenario, &body, &camera)?;
+    let Seen { base_from_camera, room: solids, poses } = seen(&scenario, &body, &camera)?;
     let bumped = scenario.faults.bumped(&base_from_camera, &mut RandomStream::Bump.of(seed));
-    let eye = base_from_camera.point(&Point3::origin());
-    let walls = solids.len();
-    solids.extend(surroundings::clutter_about(&scenario, &body, &poses, &eye));
-    solids.extend(occlusion::before(&scenario, &body, &poses, &eye));
-    let stages = stages(&scenario, &body, &poses, &eye);
-    Ok(Plan {
+    let room = solids.len();
+    let mut plan = Plan {
         scenario,
         body,
         camera,
@@ -73,10 +69,12 @@ pub fn plan<'a>(scenario: Scenario<'a>, cache: &LinkCache) -> Result<Plan<'a>, S
         bumped,
         poses,
         solids,
-        room: walls,
-        stages,
+        room,
+        stages: Vec::new(),
         plate: None,
-    })
+    };
+    plan.put_things();
+    Ok(plan)
 }
 
 /// A camera, the room that it stands in, and configurations that it sees well.
@@ -137,6 +135,34 @@ fn seen_from(
 }
 
 impl Plan<'_> {
+    /// The same camera and room with the arm resting in `configurations` instead; all that stands about is put out of
+    /// its way anew.
+    ///
+    /// # Errors
+    ///
+    /// A configuration without the positions of all joints of the arm, by its place.
+    pub fn at(self, configurations: &[JointPositions]) -> Result<Self, SimulateError> {
+        let pose = |(index, joints): (usize, &JointPositions)| {
+            let posture = self.body.posture(joints).ok_or(SimulateError::Unposed { index })?;
+            Ok(Pose { joints: joints.clone(), posture })
+        };
+        let poses = configurations.iter().enumerate().map(pose);
+        let poses = poses.collect::<Result<Vec<_>, SimulateError>>()?;
+        let mut plan = Self { poses, ..self };
+        plan.put_things();
+        Ok(plan)
+    }
+
+    /// Puts whatever is not the room out of the way of the arm.
+    fn put_things(&mut self) {
+        self.solids.truncate(self.room);
+        let (scenario, body, poses) = (&self.scenario, &self.body, &self.poses);
+        let eye = self.base_from_camera.point(&Point3::origin());
+        self.solids.extend(surroundings::clutter_about(scenario, body, poses, &eye));
+        self.solids.extend(occlusion::before(scenario, body, poses, &eye));
+        self.stages = stages(scenario, body, poses, &eye);
+    }
+
     /// The true pose of the base link in the camera's optical frame, when the recording begins.
     pub fn camera_from_base(&self) -> Transform<Camera, Base> {
         self.base_from_camera.inverse()
