@@ -17,7 +17,7 @@ def told(**changed: Any) -> dict[str, Any]:
         "depth": np.full((3, 6, 8), 1000, np.uint16),
         "camera": np.array([[9.0, 0, 4], [0, 9.0, 3], [0, 0, 1]]),
         "joints": np.zeros((3, 7)),
-        "joint_names": [f"joint_{number}" for number in range(1, 8)],
+        "joint_names": [f"joint{number}" for number in range(1, 8)],
         "robot": "shackle",
     }
     return {**good, **changed}
@@ -37,9 +37,9 @@ def told(**changed: Any) -> dict[str, Any]:
         ("camera", {"camera": "/nowhere/camera_info.yaml"}),
         ("joints", {"joints": None}),
         ("joints", {"joints": np.zeros((2, 7))}),
-        ("joints", {"joints": {"joint_1": np.zeros(2)}}),
+        ("joints", {"joints": {"joint1": np.zeros(2)}}),
         ("joint_names", {"joint_names": None}),
-        ("joint_names", {"joint_names": ["joint_1"]}),
+        ("joint_names", {"joint_names": ["joint1"]}),
         ("names", {"names": ["a"]}),
         ("masks", {"masks": np.zeros((2, 6, 8), bool)}),
         ("robot", {"robot": None}),
