@@ -5,6 +5,7 @@ mod limits;
 mod marker;
 
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
 use crate::names;
 use crate::output::{self, Destination, STDOUT};
@@ -19,6 +20,7 @@ use eyebolt::progress::{Progress, Step};
 use eyebolt::record::{RecordError, RecordOptions};
 use eyebolt::report::{Context, Picture, html, overlays};
 use eyebolt_recording::Recording;
+use eyebolt_robot::Arm;
 use learned::LearnedArguments;
 pub use limits::LimitArguments;
 use std::path::{Path, PathBuf};
@@ -84,16 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
     let recording = arguments.robot.noted(recording, &arm)?;
-    let request = Request {
-        cache: arguments.cache.open(),
-        options: RecordOptions {
-            use_masks: !arguments.no_masks,
-            most_configurations: usize::from(arguments.max_configurations),
-        },
-        limits: arguments.limits.limits(),
-        seed: arguments.seed,
-        ..Request::new(recording.source(), &arm)
-    };
+    let request = request(arguments, &recording, &arm);
     if let Some(target) = &arguments.marker.marker {
         let path = &arguments.recording.recording;
         return marker::run(&arguments.marker, target, &request, path, &destination, &bar);
@@ -124,6 +117,51 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     saved.and(report)?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
+}
+
+fn request<'a>(arguments: &Arguments, recording: &'a Recording<'_>, arm: &'a Arm) -> Request<'a> {
+    Request {
+        cache: arguments.cache.open(),
+        options: RecordOptions {
+            use_masks: !arguments.no_masks,
+            most_configurations: usize::from(arguments.max_configurations),
+        },
+        limits: arguments.limits.limits(),
+        seed: arguments.seed,
+        ..Request::new(recording.source(), arm)
+    }
+}
+
+/// Calibrates the recording that `arguments` name.
+pub(crate) fn of_named(
+    arguments: &Arguments,
+    progress: &dyn Progress,
+) -> Result<(Answer, Outcome)> {
+    of(arguments, arguments.recording.open_of(&arguments.robot)?, progress)
+}
+
+/// Calibrates `recording`, whatever `arguments` name.
+pub(crate) fn of(
+    arguments: &Arguments,
+    recording: Recording<'_>,
+    progress: &dyn Progress,
+) -> Result<(Answer, Outcome)> {
+    let path = &arguments.recording.recording;
+    let arm = arguments.robot.arm(path, &recording)?;
+    let recording = arguments.robot.noted(recording, &arm)?;
+    let request = request(arguments, &recording, &arm);
+    let outcome = outcome(&arguments.learned, path, &request, progress)?;
+    Ok((answer(&arguments.robot, &request, &outcome), outcome))
+}
+
+/// Every configuration of the recording that `arguments` name with the posed arm over it.
+pub(crate) fn pictures_of_named(
+    arguments: &Arguments,
+    outcome: &Outcome,
+    front: &dyn Front,
+) -> Result<Vec<Picture>> {
+    let recording = arguments.recording.open_of(&arguments.robot)?;
+    Ok(pictures(&recording, outcome, front))
 }
 
 /// Calibrates the recording at `path` by the way that is asked for; errors say which recording it was.
@@ -204,20 +242,24 @@ fn check_report(report: &Path, destination: &Destination, force: bool) -> Result
 /// Every configuration with the posed arm over it, if anybody wants them.
 fn draw(arguments: &Arguments, recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
     match arguments.save_overlay.is_some() || arguments.report.is_some() {
-        true => pictures(recording, outcome),
+        true => pictures(recording, outcome, &Terminal),
         false => Vec::new(),
     }
 }
 
 /// Every configuration with the posed arm over it.
-pub(crate) fn pictures(recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
+pub(crate) fn pictures(
+    recording: &Recording<'_>,
+    outcome: &Outcome,
+    front: &dyn Front,
+) -> Vec<Picture> {
     let color = |configuration: &Configuration| {
         let first = configuration.frames.first()?;
         let index = recording.frame_names().iter().position(|name| name == first)?;
         // A colour image of another camera, or none: the depth image serves as well.
         recording.read_color(index).unwrap_or_else(|error| {
             let error = names::in_flags(&error.to_string());
-            output::complain(&format!("note: {error}; drawn over the depth image instead"));
+            front.note(&format!("{error}; drawn over the depth image instead"));
             None
         })
     };

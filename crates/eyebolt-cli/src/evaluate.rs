@@ -4,8 +4,10 @@ mod calibration;
 mod models;
 
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::inputs::{CacheArguments, RobotArguments, marker, use_threads};
 use anyhow::{Result, bail};
+use eyebolt::export::SavedCalibration;
 use eyebolt_markers::Target;
 use std::path::PathBuf;
 
@@ -50,23 +52,45 @@ pub struct Arguments {
     cache: CacheArguments,
 }
 
+impl Arguments {
+    fn wanted(&self) -> models::Wanted<'_> {
+        models::Wanted {
+            recordings: &self.paths,
+            models: &self.model,
+            calibrations: &self.calibration,
+            marker: self.marker.as_ref(),
+            marked: &self.marked,
+            robot: &self.robot,
+            json: self.json,
+            csv: self.csv.as_deref(),
+            report: self.report.as_deref(),
+            force: self.force,
+            cache: &self.cache,
+        }
+    }
+}
+
+/// The tables, or of a calibration (name and text) of the one recording that `arguments` name how far off it is: JSON.
+pub(crate) fn json(
+    arguments: &Arguments,
+    calibration: Option<(&str, &str)>,
+    front: &dyn Front,
+) -> Result<String> {
+    match (calibration, arguments.paths.as_slice()) {
+        (Some((name, text)), [session]) => {
+            let calibration = SavedCalibration::parse(name, text)?;
+            Ok(serde_json::to_string(&calibration::of(session, name, &calibration)?)?)
+        }
+        (None, _) if !arguments.model.is_empty() => models::json(&arguments.wanted(), front),
+        _ => bail!("name a recording with its calibration, or recordings with --model"),
+    }
+}
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     if !arguments.model.is_empty() {
-        return models::run(&models::Wanted {
-            recordings: &arguments.paths,
-            models: &arguments.model,
-            calibrations: &arguments.calibration,
-            marker: arguments.marker.as_ref(),
-            marked: &arguments.marked,
-            robot: &arguments.robot,
-            json: arguments.json,
-            csv: arguments.csv.as_deref(),
-            report: arguments.report.as_deref(),
-            force: arguments.force,
-            cache: &arguments.cache,
-        });
+        return models::run(&arguments.wanted(), &Terminal);
     }
     match arguments.paths.as_slice() {
         [session, calibration] => calibration::run(session, calibration, arguments.json),

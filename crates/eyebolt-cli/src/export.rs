@@ -1,6 +1,7 @@
 //! `eyebolt export`.
 
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::names;
 use crate::output::{self, STDOUT};
 use crate::robots::packages;
@@ -114,6 +115,48 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         check_ending(path, arguments.format)?;
     }
     let calibration = SavedCalibration::read(&arguments.calibration)?;
+    let stem = to_file.and_then(|path| path.file_stem());
+    let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());
+    let (bytes, placement) = written(arguments, &calibration, &name)?;
+    match to_file {
+        None => output::deliver(&bytes)?,
+        Some(path) => {
+            output::write_whole(path, &bytes, arguments.force)?;
+            let Placement { parent, child, .. } = &placement;
+            output::say(&format!("pose of {child} in {parent}, written to {}", path.display()));
+        }
+    }
+    notes(arguments, &placement, &Terminal);
+    Ok(Ending::Done)
+}
+
+/// What is to know of `placement`.
+fn notes(arguments: &Arguments, placement: &Placement, front: &dyn Front) {
+    // A second parent is a matter of who publishes it.
+    let published = arguments.format.is_published();
+    let of_use = |note: &&Note| published || !matches!(note, Note::TreeUnknown { .. });
+    for note in placement.notes.iter().filter(of_use) {
+        front.note(&names::in_flags(&note.to_string()));
+    }
+}
+
+/// The bytes that `arguments` ask for of `calibration`; formats with a name of their own are called `name`.
+pub(crate) fn bytes(
+    arguments: &Arguments,
+    calibration: &SavedCalibration,
+    name: &str,
+    front: &dyn Front,
+) -> Result<Vec<u8>> {
+    let (bytes, placement) = written(arguments, calibration, name)?;
+    notes(arguments, &placement, front);
+    Ok(bytes)
+}
+
+fn written(
+    arguments: &Arguments,
+    calibration: &SavedCalibration,
+    name: &str,
+) -> Result<(Vec<u8>, Placement)> {
     let wanted = Wanted {
         parent: arguments.parent_frame.as_deref(),
         child: arguments.child_frame.as_deref(),
@@ -124,26 +167,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         Some(path) => {
             let packages = packages(&arguments.package_path);
             let tree = StaticTree::read(path, &packages, &std::env::temp_dir())?;
-            Placement::find(&calibration, &tree, &wanted)?
+            Placement::find(calibration, &tree, &wanted)?
         }
-        None => Placement::of_recording(&calibration, &wanted)?,
+        None => Placement::of_recording(calibration, &wanted)?,
     };
-    let stem = to_file.and_then(|path| path.file_stem());
-    let name = stem.map_or("eyebolt".into(), |stem| stem.to_string_lossy());
-    let bytes = arguments.format.write(&placement, &name);
-    match to_file {
-        None => output::deliver(&bytes)?,
-        Some(path) => {
-            output::write_whole(path, &bytes, arguments.force)?;
-            let Placement { parent, child, .. } = &placement;
-            output::say(&format!("pose of {child} in {parent}, written to {}", path.display()));
-        }
-    }
-    // A second parent is a matter of who publishes it.
-    let published = arguments.format.is_published();
-    let of_use = |note: &&Note| published || !matches!(note, Note::TreeUnknown { .. });
-    for note in placement.notes.iter().filter(of_use) {
-        output::complain(&format!("note: {}", names::in_flags(&note.to_string())));
-    }
-    Ok(Ending::Done)
+    Ok((arguments.format.write(&placement, name), placement))
 }

@@ -120,12 +120,12 @@ impl BagArguments {
 
 impl RecordingArguments {
     /// Opens it, as one of `robot`, if that is named.
-    pub fn open_of(&self, robot: &RobotArguments) -> Result<Recording> {
+    pub fn open_of(&self, robot: &RobotArguments) -> Result<Recording<'static>> {
         Ok(Recording::open(&self.recording, &self.bag.options_of(robot))?)
     }
 
     /// As [`Self::open_of`], with one of several topics of depth where none is named.
-    pub fn open_any_depth(&self, robot: &RobotArguments) -> Result<Recording> {
+    pub fn open_any_depth(&self, robot: &RobotArguments) -> Result<Recording<'static>> {
         let options = BagOptions { any_depth: true, ..self.bag.options_of(robot) };
         Ok(Recording::open(&self.recording, &options)?)
     }
@@ -195,7 +195,7 @@ impl RobotArguments {
     }
 
     /// `recording` with joints as the flags have them, which name joints of `arm`.
-    pub fn noted(&self, recording: Recording, arm: &Arm) -> Result<Recording> {
+    pub fn noted<'r>(&self, recording: Recording<'r>, arm: &Arm) -> Result<Recording<'r>> {
         let notes = JointNotes { prefix: self.joint_prefix.clone(), positions: self.joint.clone() };
         if notes.is_empty() {
             return Ok(recording);
@@ -206,10 +206,7 @@ impl RobotArguments {
         {
             let known = robot.joints.iter().filter(|joint| joint.moves());
             let known: Vec<&str> = known.map(|joint| joint.name.as_str()).collect();
-            bail!(
-                "--joint {name}: the robot has no such joint; its joints are {}",
-                known.join(", ")
-            );
+            bail!("--joint {name}: the robot has no such joint. Name one of {}", known.join(", "));
         }
         Ok(Recording::Other(Box::new(NotedJoints::new(recording, notes, robot))))
     }

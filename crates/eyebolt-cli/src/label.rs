@@ -6,6 +6,7 @@ mod one;
 mod told;
 
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::inputs::use_threads;
 use crate::output;
 use anyhow::{Result, bail};
@@ -13,7 +14,7 @@ pub use arguments::Arguments;
 use eyebolt::dataset::{Merged, merge};
 use one::Labelling;
 use std::path::Path;
-use told::Told;
+pub(crate) use told::Told;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
@@ -26,22 +27,34 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         ));
         return Ok(Ending::Done);
     }
+    let mut ending = Ending::Done;
+    each(arguments, None, &Terminal, &mut |recording, told| match told {
+        Told::Labelled(labelled) if arguments.json => output::say(&labelled.json()),
+        Told::Labelled(labelled) => output::say(&labelled.text()),
+        Told::Refused(reasons) => {
+            // What of other recordings is good stays good.
+            ending = Ending::Refused;
+            output::complain(&told::refused(recording, &reasons));
+        }
+    })?;
+    Ok(ending)
+}
+
+/// Labels the recordings that `arguments` name, by `calibration` (name and text) in place of the one that they do; what
+/// became of each is told to `each`.
+pub(crate) fn each(
+    arguments: &Arguments,
+    calibration: Option<(String, String)>,
+    front: &dyn Front,
+    each: &mut dyn FnMut(&Path, Told),
+) -> Result<()> {
     let Some(folder) = &arguments.output else { bail!("--output: name the folder of a data set") };
     check_folder(folder)?;
-    let labelling = Labelling::new(arguments, folder)?;
-    let mut ending = Ending::Done;
+    let labelling = Labelling::new(arguments, folder, calibration, front)?;
     for recording in &arguments.recordings {
-        match labelling.label(recording)? {
-            Told::Labelled(labelled) if arguments.json => output::say(&labelled.json()),
-            Told::Labelled(labelled) => output::say(&labelled.text()),
-            Told::Refused(reasons) => {
-                // What of other recordings is good stays good.
-                ending = Ending::Refused;
-                output::complain(&told::refused(recording, &reasons));
-            }
-        }
+        each(recording, labelling.label(recording)?);
     }
-    Ok(ending)
+    Ok(())
 }
 
 /// Better told now than after the work: a place where no data set can be.

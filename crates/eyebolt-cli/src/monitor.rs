@@ -2,8 +2,9 @@
 
 mod lines;
 
-use crate::calibrate::named;
+use crate::calibrate;
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
 use crate::output;
 use crate::robots::told;
@@ -12,6 +13,7 @@ use eyebolt::export::SavedCalibration;
 use eyebolt::monitor::{Known, Rate, ViewReport, Watched, watch};
 use eyebolt::pipeline::Failure;
 use eyebolt::record::{RecordError, RecordOptions, observe};
+use eyebolt_recording::Recording;
 use std::path::PathBuf;
 
 /// Options of `eyebolt monitor`.
@@ -67,10 +69,43 @@ impl From<RecordError> for Ended {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let calibration = SavedCalibration::read(&arguments.calibration)?;
+    let recording = || named(arguments);
+    let mut last = None;
+    let (mut views, mut counted) = (0, 0);
+    let alarm = of(arguments, &calibration, recording, &Terminal, &mut |report| {
+        let line = match arguments.json {
+            true => serde_json::to_string(&report)?,
+            false => lines::view(&report),
+        };
+        output::deliver(format!("{line}\n").as_bytes())?;
+        views += 1;
+        counted += usize::from(report.counts);
+        last = Some(report);
+        Ok(())
+    })?;
+    if !arguments.json {
+        output::say(&lines::ending(last.as_ref(), views, counted));
+    }
+    Ok(if alarm { Ending::Refused } else { Ending::Done })
+}
+
+/// The recording that `arguments` name.
+pub(crate) fn named(arguments: &Arguments) -> Result<Recording<'static>> {
+    arguments.recording.open_of(&arguments.robot)
+}
+
+/// Hands what each view of `recording` says of `calibration` to `each`; whether there is an alarm.
+pub(crate) fn of<'r>(
+    arguments: &Arguments,
+    calibration: &SavedCalibration,
+    recording: impl FnOnce() -> Result<Recording<'r>>,
+    front: &dyn Front,
+    each: &mut dyn FnMut(ViewReport) -> Result<()>,
+) -> Result<bool> {
     calibration.base_from_camera(arguments.even_if_refused)?;
     let path = &arguments.recording.recording;
-    let recording = arguments.recording.open_of(&arguments.robot)?;
-    let arm = told(arguments.robot.arm(path, &recording)?);
+    let recording = recording()?;
+    let arm = told(arguments.robot.arm(path, &recording)?, front);
     let recording = arguments.robot.noted(recording, &arm)?;
     if calibration.base_frame.as_str() != arm.base_name() {
         bail!(
@@ -83,9 +118,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     let options = RecordOptions { use_masks: !arguments.no_masks, most_configurations: FEW };
     let source = recording.source();
-    let failed = |error| named(Failure::Record(error), path);
+    let failed = |error| calibrate::named(Failure::Record(error), path);
     let observations = observe(source, &arm, &arguments.cache.open(), &options).map_err(failed)?;
-    let known = Known::new(&calibration, &observations, arguments.even_if_refused)?;
+    let known = Known::new(calibration, &observations, arguments.even_if_refused)?;
     let rate = Rate {
         views_per_hour: arguments.views_per_hour,
         false_alarms_per_hour: arguments.false_alarms_per_hour,
@@ -97,26 +132,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         options: &options,
         per_rest: usize::from(arguments.per_rest),
     };
-    let mut last = None;
-    let (mut views, mut counted) = (0, 0);
-    let ended = watch::<Ended>(&watched, known, &rate, |report: ViewReport| {
-        let line = match arguments.json {
-            true => serde_json::to_string(&report).map_err(|e| Ended::Output(e.into()))?,
-            false => lines::view(&report),
-        };
-        output::deliver(format!("{line}\n").as_bytes()).map_err(Ended::Output)?;
-        views += 1;
-        counted += usize::from(report.counts);
-        last = Some(report);
-        Ok(())
-    });
-    let alarm = match ended {
-        Err(Ended::Record(error)) => return Err(failed(error)),
-        Err(Ended::Output(error)) => return Err(error),
-        Ok(alarm) => alarm,
-    };
-    if !arguments.json {
-        output::say(&lines::ending(last.as_ref(), views, counted));
+    let each = |report: ViewReport| each(report).map_err(Ended::Output);
+    match watch::<Ended>(&watched, known, &rate, each) {
+        Err(Ended::Record(error)) => Err(failed(error)),
+        Err(Ended::Output(error)) => Err(error),
+        Ok(alarm) => Ok(alarm),
     }
-    Ok(if alarm { Ending::Refused } else { Ending::Done })
 }

@@ -66,42 +66,13 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     if let Some(path) = &arguments.output {
         output::refuse_existing(path, arguments.force)?;
     }
-    let path = &arguments.recording.recording;
-    let recording = arguments.recording.open_of(&arguments.robot)?;
-    let names = recording.frame_names().to_vec();
-    if names.is_empty() {
-        bail!("{}: there is no frame in it", path.display());
-    }
-    let arm = arguments.robot.arm(path, &recording)?;
-    let shape = EndEffectorShape::of(&arm, &arguments.cache.open())?;
-    let mut recognizer = Recognizer::open(&arguments.model, shape.clone())?;
-    let mut estimator = PoseEstimator::open(&arguments.model, shape, arguments.method)?;
-    estimator.refines = !arguments.no_icp;
-    let images = FrameImages::of(recording.source())?;
+    let recording = named(arguments)?;
     let bar = Counting::new()?;
-    let mut lines = Vec::with_capacity(names.len());
-    for (index, name) in names.iter().enumerate() {
-        bar.advance(index, names.len())?;
-        let Some(depth) = images.depth(recording.source(), index)? else {
-            lines.push(Line::damaged(name, arguments.method));
-            continue;
-        };
-        let joints = joints(arguments, &recording, index)?;
-        let posture = joints.as_ref().map(|joints| estimator.shape().posture(joints));
-        let seen = recognizer.recognize(&depth, images.camera(), posture.as_slice())?;
-        let found = match (arguments.method, arguments.no_icp) {
-            (PoseMethod::Fused, false) => seen.answer,
-            _ => {
-                let label = &seen.segmentation.label;
-                estimator.estimate(&depth, images.camera(), label, joints.as_ref())?
-            }
-        };
-        let line = Line::of(name, arguments.method, joints.is_some(), found);
+    let lines = of(arguments, &recording, &bar, &mut |line| {
         if arguments.json {
             output::say(&line.json());
         }
-        lines.push(line);
-    }
+    })?;
     drop(bar);
     if !arguments.json {
         lines.iter().for_each(|line| output::say(&line.text()));
@@ -117,9 +88,57 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     Ok(if answered == 0 { Ending::Refused } else { Ending::Done })
 }
 
+/// The recording that `arguments` name.
+pub(crate) fn named(arguments: &Arguments) -> Result<Recording<'static>> {
+    arguments.recording.open_of(&arguments.robot)
+}
+
+/// What is told of each frame of `recording`, and told to `each` as soon as it is known.
+pub(crate) fn of(
+    arguments: &Arguments,
+    recording: &Recording<'_>,
+    progress: &dyn Progress,
+    each: &mut dyn FnMut(&Line),
+) -> Result<Vec<Line>> {
+    let path = &arguments.recording.recording;
+    let names = recording.frame_names().to_vec();
+    if names.is_empty() {
+        bail!("{}: there is no frame in it", path.display());
+    }
+    let arm = arguments.robot.arm(path, recording)?;
+    let shape = EndEffectorShape::of(&arm, &arguments.cache.open())?;
+    let mut recognizer = Recognizer::open(&arguments.model, shape.clone())?;
+    let mut estimator = PoseEstimator::open(&arguments.model, shape, arguments.method)?;
+    estimator.refines = !arguments.no_icp;
+    let images = FrameImages::of(recording.source())?;
+    let mut lines = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        progress.advance(index, names.len())?;
+        let Some(depth) = images.depth(recording.source(), index)? else {
+            lines.push(Line::damaged(name, arguments.method));
+            continue;
+        };
+        let joints = joints(arguments, recording, index)?;
+        let posture = joints.as_ref().map(|joints| estimator.shape().posture(joints));
+        let seen = recognizer.recognize(&depth, images.camera(), posture.as_slice())?;
+        let found = match (arguments.method, arguments.no_icp) {
+            (PoseMethod::Fused, false) => seen.answer,
+            _ => {
+                let label = &seen.segmentation.label;
+                estimator.estimate(&depth, images.camera(), label, joints.as_ref())?
+            }
+        };
+        let line = Line::of(name, arguments.method, joints.is_some(), found);
+        each(&line);
+        lines.push(line);
+    }
+    progress.advance(names.len(), names.len())?;
+    Ok(lines)
+}
+
 fn joints(
     arguments: &Arguments,
-    recording: &Recording,
+    recording: &Recording<'_>,
     index: usize,
 ) -> Result<Option<JointPositions>> {
     let read = || recording.source().read_joints(index);

@@ -8,12 +8,13 @@ use crate::output;
 use crate::shell::quoted;
 use anyhow::{Context, Result, bail};
 pub use arguments::Arguments;
+use std::ffi::OsString;
 use std::process::Command;
 use std::time::Instant;
 use steps::{Step, steps};
 
-/// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<Ending> {
+/// Runs the command; `program` are the words that run this program.
+pub fn run(arguments: &Arguments, program: &[OsString]) -> Result<Ending> {
     let folder = &arguments.output;
     let steps = steps(arguments);
     for part in ["recordings", "datasets", "models"] {
@@ -22,7 +23,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
             format!("{}: cannot make it. Name another --output", path.display())
         })?;
     }
-    let program = std::env::current_exe().context("this program cannot be found")?;
+    let (program, first) = program.split_first().context("this program cannot be found")?;
     let count = steps.len();
     for (number, step) in steps.iter().enumerate() {
         let Step { about, product, arguments } = step;
@@ -34,7 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         let words: Vec<String> = arguments.iter().map(|word| quoted(word)).collect();
         output::say(&format!("{head}\n  eyebolt {}", words.join(" ")));
         let begun = Instant::now();
-        let status = Command::new(&program).args(arguments).status();
+        let status = Command::new(program).args(first).args(arguments).status();
         let status = status.with_context(|| format!("{}: cannot run it", program.display()))?;
         if !status.success() {
             bail!(

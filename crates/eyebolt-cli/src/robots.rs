@@ -1,8 +1,8 @@
 //! Robot descriptions that flags name: a robot that comes with the program, a URDF or xacro file, or a
 //! robot that is installed for ROS.
 
+use crate::front::Front;
 use crate::names;
-use crate::output;
 use anyhow::{Result, bail};
 use eyebolt::robots::{About, BUILT_IN, BuiltIn};
 use eyebolt_robot::{Arm, Description, PackageRoots, Robot, XacroArguments};
@@ -88,10 +88,10 @@ pub fn packages(flags: &[String]) -> PackageRoots {
     named.then(environment)
 }
 
-/// `arm`, after what was left out of its description and which links were guessed is said.
-pub fn told(arm: Arm) -> Arm {
+/// `arm`, after what was left out of its description is said.
+pub fn told(arm: Arm, front: &dyn Front) -> Arm {
     for part in arm.left_out() {
-        output::complain(&format!("note: {}", names::in_flags(&part.to_string())));
+        front.note(&names::in_flags(&part.to_string()));
     }
     arm
 }

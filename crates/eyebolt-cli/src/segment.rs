@@ -54,8 +54,8 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
-    let recording = arguments.recording.open_of(&arguments.robot)?;
-    let mut teller = teller(arguments, &recording)?;
+    let recording = named(arguments)?;
+    let teller = teller(arguments, &recording)?;
     let names = recording.frame_names().to_vec();
     let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
     let more = More { arguments };
@@ -63,29 +63,22 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         output::refuse_existing(&path(name), arguments.force)?;
         more.refuse_existing(name)?;
     }
-    if names.is_empty() {
-        bail!("{}: there is no frame in it", arguments.recording.recording.display());
-    }
-    let images = FrameImages::of(recording.source())?;
     let bar = Counting::new()?;
-    let (mut arm, mut hand, mut left_out) = (0, 0, 0);
-    for (index, name) in names.iter().enumerate() {
-        bar.advance(index, names.len())?;
-        let Some(depth) = images.depth(recording.source(), index)? else {
-            left_out += 1;
-            continue;
-        };
-        let found = teller.label(&depth, images.camera())?;
-        let count = |class: u8| found.label.iter().filter(|label| **label == class).count();
+    let tells_end_effector = teller.tells_end_effector();
+    let (mut arm, mut hand) = (0, 0);
+    let left_out = of(arguments, teller, &recording, &bar, &mut |frame| {
+        let count = |class: u8| frame.label.iter().filter(|label| **label == class).count();
         arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
         hand += usize::from(count(END_EFFECTOR) > 0);
-        more.write(name, &depth, images.camera(), &found.label)?;
-        let bytes = write_npy("|u1", &[found.height, found.width], found.label);
-        output::write_whole(&path(name), &bytes, arguments.force)?;
-    }
+        more.write(frame.name, &frame.depth, frame.camera, &frame.label)?;
+        let shape = [frame.depth.height() as usize, frame.depth.width() as usize];
+        let bytes = write_npy("|u1", &shape, frame.label);
+        output::write_whole(&path(frame.name), &bytes, arguments.force)
+    })?;
     drop(bar);
+    let left_out = left_out.len();
     let (written, folder) = (names.len() - left_out, arguments.output.display());
-    let hand = match teller.tells_end_effector() {
+    let hand = match tells_end_effector {
         true => format!(", the end-effector in {hand}"),
         false => String::new(),
     };
@@ -96,13 +89,56 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     Ok(Ending::Done)
 }
 
-fn teller(arguments: &Arguments, recording: &Recording) -> Result<Teller> {
+/// A frame whose pixels are labelled.
+pub(crate) struct Segmented<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) depth: DepthImage,
+    pub(crate) camera: &'a PinholeCamera,
+    /// A class for each pixel, row by row.
+    pub(crate) label: Vec<u8>,
+}
+
+/// The recording that `arguments` name.
+pub(crate) fn named(arguments: &Arguments) -> Result<Recording<'static>> {
+    arguments.recording.open_of(&arguments.robot)
+}
+
+/// The model that `arguments` name, for the robot that they or `recording` name.
+pub(crate) fn teller(arguments: &Arguments, recording: &Recording<'_>) -> Result<Teller> {
     arguments.robot.check_named()?;
     if arguments.networks_alone {
         return Teller::networks(&arguments.model);
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, recording);
     Teller::posed(&arguments.model, arm, &arguments.cache.open())
+}
+
+/// Hands each frame of `recording` to `each`; names of damaged ones, which are left out.
+pub(crate) fn of(
+    arguments: &Arguments,
+    mut teller: Teller,
+    recording: &Recording<'_>,
+    progress: &dyn Progress,
+    each: &mut dyn FnMut(Segmented<'_>) -> Result<()>,
+) -> Result<Vec<String>> {
+    let names = recording.frame_names();
+    if names.is_empty() {
+        bail!("{}: there is no frame in it", arguments.recording.recording.display());
+    }
+    let images = FrameImages::of(recording.source())?;
+    let camera = images.camera();
+    let mut left_out = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        progress.advance(index, names.len())?;
+        let Some(depth) = images.depth(recording.source(), index)? else {
+            left_out.push(name.clone());
+            continue;
+        };
+        let label = teller.label(&depth, camera)?.label;
+        each(Segmented { name, depth, camera, label })?;
+    }
+    progress.advance(names.len(), names.len())?;
+    Ok(left_out)
 }
 
 /// What is written beside labels.

@@ -5,19 +5,19 @@ mod lab_flags;
 pub mod numbers;
 mod recording;
 
-pub use recording::record;
+pub use recording::{record, record_telling};
 
 use crate::ending::Ending;
+use crate::front::{Front, Terminal};
 use crate::inputs::{CacheArguments, marker, use_threads};
 use crate::output;
-use crate::progress::Waiting;
 use crate::shell::quoted;
 use anyhow::{Result, bail};
-use eyebolt::simulate::{Scenario, plan};
+use eyebolt::simulate::{Plan, Scenario, plan};
 use eyebolt_markers::Target;
 use eyebolt_render::Sensor;
 use flags::{CameraArguments, FaultArguments, RobotArguments};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt simulate`.
 #[derive(Debug, clap::Args)]
@@ -70,6 +70,14 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
+    destination(arguments)?;
+    planned(arguments, &Terminal, |plan| record(plan, &arguments.output, arguments.force))?;
+    output::say(&summary(arguments));
+    Ok(Ending::Done)
+}
+
+/// Where the recording goes, checked before any work is done, and whether it replaces what is there.
+pub(crate) fn destination(arguments: &Arguments) -> Result<(&Path, bool)> {
     let ending = arguments.output.extension().and_then(|ending| ending.to_str());
     if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) {
         bail!(
@@ -78,7 +86,16 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         );
     }
     output::refuse_existing(&arguments.output, arguments.force)?;
-    let robot = arguments.robot.read()?;
+    Ok((&arguments.output, arguments.force))
+}
+
+/// What `then` makes of the plan that `arguments` ask for.
+pub(crate) fn planned<T>(
+    arguments: &Arguments,
+    front: &dyn Front,
+    then: impl FnOnce(&Plan<'_>) -> Result<T>,
+) -> Result<T> {
+    let robot = arguments.robot.read(front)?;
     let scenario = Scenario {
         arm: &robot.arm,
         urdf: &robot.urdf,
@@ -92,16 +109,14 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         faults: arguments.faults.faults(),
         seed: arguments.seed,
     };
-    let waiting = Waiting::new("choosing configurations");
+    let waiting = front.wait("choosing configurations");
     let plan = plan(scenario, &arguments.cache.open())?;
     let plan = match &arguments.marker {
         Some(target) => plan.with_marker(target),
         None => plan,
     };
     drop(waiting);
-    record(&plan, &arguments.output, arguments.force)?;
-    output::say(&summary(arguments));
-    Ok(Ending::Done)
+    then(&plan)
 }
 
 fn summary(arguments: &Arguments) -> String {

@@ -48,7 +48,11 @@ impl CameraInfo {
     }
 
     /// As [`CameraInfo::read`], from text; `path` is for messages.
-    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecordingError> {
+    ///
+    /// # Errors
+    ///
+    /// As of [`CameraInfo::read`], but for the file.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, RecordingError> {
         Self::parse_for(path, text, PictureForm::default())
     }
 

@@ -1,25 +1,23 @@
 //! Frames that are in memory and in no file.
 
+mod borrowed;
 mod millimetres;
 mod place;
 
+pub use borrowed::{BorrowedFrame, BorrowedFrames, Make};
 pub use millimetres::depth_from_millimetres;
 
 use crate::color::ColorImage;
 use crate::error::RecordingError;
 use crate::frame::{Frame, Range};
-use crate::frame_names;
 use crate::frame_source::{FrameSource, check_index};
 use crate::manifest::RobotSection;
 use crate::provenance::Provenance;
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
 use eyebolt_robot::JointPositions;
-use place::Place;
+use place::{NAME, Place};
 use std::collections::BTreeSet;
 use std::path::Path;
-
-/// What such a source is called, until it is given a name.
-const NAME: &str = "in memory";
 
 /// Frames in memory: from a driver, a queue that is still being filled, or arrays of another
 /// language.
@@ -139,17 +137,7 @@ impl InMemory {
     /// then.
     pub fn push_frame(&mut self, frame: Frame) -> Result<usize, RecordingError> {
         let place = Place::frame(&self.provenance.name, &frame.name);
-        if !frame_names::is_fit(&frame.name) {
-            let problem = "the name cannot be part of the name of a file";
-            return Err(place.invalid("name", problem, "Name it by a number, or without / and \\"));
-        }
-        if self.known.contains(&frame.name) {
-            return Err(place.invalid(
-                "name",
-                "there is a frame of this name",
-                "Give each its own",
-            ));
-        }
+        place.check_name(&frame.name, &self.known)?;
         place.check_range(&frame.range, self.camera.as_ref())?;
         place.check_kind(&frame.range, self.frames.first().map(|first| &first.range))?;
         place.check_joints(&frame.joints)?;

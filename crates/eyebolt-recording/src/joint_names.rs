@@ -5,6 +5,7 @@ use crate::error::RecordingError;
 use crate::frame::Frame;
 use crate::frame_source::FrameSource;
 use crate::manifest::RobotSection;
+use crate::message::StaticTransform;
 use crate::provenance::Provenance;
 use crate::recording::Recording;
 use eyebolt_geometry::{DepthImage, PinholeCamera};
@@ -30,16 +31,16 @@ impl JointNotes {
 
 /// A recording with [`JointNotes`] applied: joints have the robot's names.
 #[derive(Debug)]
-pub struct NotedJoints {
-    recording: Recording,
+pub struct NotedJoints<'a> {
+    recording: Recording<'a>,
     notes: JointNotes,
     /// Names of the robot's joints.
     known: BTreeSet<String>,
 }
 
-impl NotedJoints {
+impl<'a> NotedJoints<'a> {
     /// `recording` as `notes` have it, for `robot`.
-    pub fn new(recording: Recording, notes: JointNotes, robot: &Robot) -> Self {
+    pub fn new(recording: Recording<'a>, notes: JointNotes, robot: &Robot) -> Self {
         let known = robot.joints.iter().map(|joint| joint.name.clone()).collect();
         Self { recording, notes, known }
     }
@@ -62,7 +63,7 @@ impl NotedJoints {
     }
 }
 
-impl FrameSource for NotedJoints {
+impl FrameSource for NotedJoints<'_> {
     fn camera(&self) -> Option<&PinholeCamera> {
         self.recording.camera()
     }
@@ -114,6 +115,14 @@ impl FrameSource for NotedJoints {
 
     fn in_millimetres(&self) -> bool {
         self.recording.in_millimetres()
+    }
+
+    fn integer_unit_m(&self) -> Option<f64> {
+        self.recording.integer_unit_m()
+    }
+
+    fn static_transforms(&self) -> &[StaticTransform] {
+        self.recording.static_transforms()
     }
 
     fn backgrounds_in_millimetres(&self) -> bool {

@@ -37,8 +37,8 @@
 //! well be a `sensor_msgs/JointState` with `name` and `position`.
 //!
 //! Paths are relative to the file. [`Folder`] reads it, [`BagRecording`] reads bags, [`InMemory`] has
-//! frames that are in no file, and all are a [`FrameSource`]; everything returned is in metres, radians
-//! and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors
+//! frames that are in no file, [`BorrowedFrames`] those that are in somebody else's memory, and all are a
+//! [`FrameSource`]; everything returned is in metres, radians and the optical frame. Damaged files, and sizes, units or counts that do not agree, are errors
 //! that name the file, the field and what to do.
 
 mod bag;
@@ -88,7 +88,7 @@ pub use error::RecordingError;
 pub use folder::Folder;
 pub use frame::{Frame, Range};
 pub use frame_source::FrameSource;
-pub use in_memory::{InMemory, depth_from_millimetres};
+pub use in_memory::{BorrowedFrame, BorrowedFrames, InMemory, Make, depth_from_millimetres};
 pub use joint_names::{JointNotes, NotedJoints};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::StaticTransform;

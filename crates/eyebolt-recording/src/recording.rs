@@ -12,16 +12,16 @@ use std::path::Path;
 /// A recording of depth and joint positions: a [`FrameSource`], which it dereferences to, of a kind
 /// that those can tell who copy it message by message.
 #[derive(Debug)]
-pub enum Recording {
+pub enum Recording<'a> {
     /// A folder of files with a `recording.toml`.
     Folder(Box<Folder>),
     /// A bag.
     Bag(Box<BagRecording>),
     /// Another source of frames.
-    Other(Box<dyn FrameSource>),
+    Other(Box<dyn FrameSource + 'a>),
 }
 
-impl Recording {
+impl<'a> Recording<'a> {
     /// Opens the recording at `path`: a folder with a `recording.toml`, that file itself, a bag, or
     /// a folder with a bag in it. `options` are for bags, but for the unit of depth.
     ///
@@ -40,7 +40,7 @@ impl Recording {
     }
 
     /// What everything but a writer needs to know of it.
-    pub fn source(&self) -> &(dyn FrameSource + 'static) {
+    pub fn source(&self) -> &(dyn FrameSource + 'a) {
         match self {
             Self::Folder(folder) => folder.as_ref(),
             Self::Bag(bag) => bag.as_ref(),
@@ -54,8 +54,8 @@ impl Recording {
     }
 }
 
-impl Deref for Recording {
-    type Target = dyn FrameSource;
+impl<'a> Deref for Recording<'a> {
+    type Target = dyn FrameSource + 'a;
 
     fn deref(&self) -> &Self::Target {
         self.source()

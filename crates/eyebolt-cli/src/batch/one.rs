@@ -4,6 +4,7 @@ use super::arguments::Arguments;
 use super::folder::Folder;
 use crate::calibrate::{answer, outcome, page, pictures};
 use crate::ending::causes;
+use crate::front::Terminal;
 use crate::progress::Bar;
 use anyhow::Result;
 use eyebolt::answer::Answer;
@@ -58,7 +59,7 @@ fn find(arguments: &Arguments, recording: &str) -> Result<Found> {
     let outcome = outcome(&arguments.learned, path, &request, &bar)?;
     let answer = answer(&arguments.robot, &request, &outcome);
     let report = arguments.report.then(|| {
-        let pictures = pictures(&opened, &outcome);
+        let pictures = pictures(&opened, &outcome, &Terminal);
         page(recording, &answer, &outcome, &pictures)
     });
     bar.finish();

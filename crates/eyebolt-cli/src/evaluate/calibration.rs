@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::path::Path;
 
 #[derive(Serialize)]
-struct Line {
+pub struct Line {
     /// `null` where the calibration found no pose.
     translation_mm: Option<f64>,
     rotation_deg: Option<f64>,
@@ -21,26 +21,48 @@ struct Line {
     after_bump: Vec<Evaluation>,
 }
 
-/// Holds the calibration at `path` against the truth of `session`: a recording of `eyebolt simulate`, or its truth.json.
-pub fn run(session: &Path, path: &Path, json: bool) -> Result<Ending> {
-    let truth = read_truth(session)?;
-    let calibration = SavedCalibration::read(path)?;
-    check_base(path, &truth, &calibration)?;
-    let trusted = calibration.refused().is_none();
-    let evaluations = match calibration.base_from_camera(true) {
-        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
-        Err(ExportError::NoPose { .. }) => Vec::new(),
-        Err(error) => return Err(error.into()),
-    };
-    let first = evaluations.first();
-    if json {
-        let line = Line {
+impl Line {
+    fn new(evaluations: &[Evaluation], trusted: bool) -> Self {
+        let first = evaluations.first();
+        Self {
             translation_mm: first.map(|first| first.translation_mm),
             rotation_deg: first.map(|first| first.rotation_deg),
             camera_position_mm: first.map(|first| first.camera_position_mm),
             trusted,
             after_bump: evaluations.iter().skip(1).copied().collect(),
-        };
+        }
+    }
+}
+
+/// How far `calibration`, called `name`, is from the truth of `session`.
+pub fn of(session: &Path, name: &str, calibration: &SavedCalibration) -> Result<Line> {
+    let (evaluations, trusted) = evaluations(session, name, calibration)?;
+    Ok(Line::new(&evaluations, trusted))
+}
+
+/// Against each pose that the camera had; whether it is trusted.
+fn evaluations(
+    session: &Path,
+    name: &str,
+    calibration: &SavedCalibration,
+) -> Result<(Vec<Evaluation>, bool)> {
+    let truth = read_truth(session)?;
+    check_base(name, &truth, calibration)?;
+    let evaluations = match calibration.base_from_camera(true) {
+        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
+        Err(ExportError::NoPose { .. }) => Vec::new(),
+        Err(error) => return Err(error.into()),
+    };
+    Ok((evaluations, calibration.refused().is_none()))
+}
+
+/// Holds the calibration at `path` against the truth of `session`: a recording of `eyebolt simulate`, or its truth.json.
+pub fn run(session: &Path, path: &Path, json: bool) -> Result<Ending> {
+    let calibration = SavedCalibration::read(path)?;
+    let name = path.display().to_string();
+    let (evaluations, trusted) = evaluations(session, &name, &calibration)?;
+    if json {
+        let line = Line::new(&evaluations, trusted);
         output::deliver(format!("{}\n", serde_json::to_string(&line)?).as_bytes())?;
     } else {
         output::say(&text(&evaluations, trusted));
@@ -49,13 +71,12 @@ pub fn run(session: &Path, path: &Path, json: bool) -> Result<Ending> {
 }
 
 /// Poses of different links are not to be compared.
-fn check_base(path: &Path, truth: &Truth, calibration: &SavedCalibration) -> Result<()> {
+fn check_base(name: &str, truth: &Truth, calibration: &SavedCalibration) -> Result<()> {
     let base = calibration.base_frame.as_str();
     if base != truth.base {
         bail!(
-            "{}: frames.base: the calibration is of {base:?}, and the truth of {:?}. Calibrate with \
+            "{name}: frames.base: the calibration is of {base:?}, and the truth of {:?}. Calibrate with \
              --base {}, or give the calibration of this recording",
-            path.display(),
             truth.base,
             truth.base
         );

@@ -1,13 +1,14 @@
 //! Models against recordings whose truth is known.
 
 use crate::ending::Ending;
+use crate::front::Front;
 use crate::inputs::{CacheArguments, RobotArguments};
 use crate::output;
-use crate::progress::Bar;
 use anyhow::{Context, Result, bail};
 use eyebolt::evaluate::{Calibrated, Model, Reference, Scores, Table, by_marker, session, tables};
 use eyebolt::export::SavedCalibration;
 use eyebolt::pipeline::Request;
+use eyebolt::progress::Progress;
 use eyebolt::report::tables_page;
 use eyebolt_markers::Target;
 use eyebolt_recording::{BagOptions, Recording, read_truth};
@@ -30,18 +31,30 @@ pub struct Wanted<'a> {
 }
 
 /// Prints the tables.
-pub fn run(wanted: &Wanted<'_>) -> Result<Ending> {
+pub fn run(wanted: &Wanted<'_>, front: &dyn Front) -> Result<Ending> {
     for path in wanted.csv.iter().chain(&wanted.report) {
         output::refuse_existing(path, wanted.force)?;
     }
+    deliver(wanted, &found(wanted, front)?)?;
+    Ok(Ending::Done)
+}
+
+/// The tables as JSON.
+pub fn json(wanted: &Wanted<'_>, front: &dyn Front) -> Result<String> {
+    let tables = found(wanted, front)?;
+    Ok(serde_json::to_string(&tables)?)
+}
+
+/// The tables.
+fn found(wanted: &Wanted<'_>, front: &dyn Front) -> Result<Vec<Table>> {
     let models: Vec<Model> = wanted.models.iter().map(|named| model(named)).collect();
     let references = references(wanted)?;
     let mut results = Vec::new();
-    let bar = Bar::new();
+    let stages = front.stages()?;
     for model in &models {
         let mut of_model = Vec::new();
         for (path, reference) in wanted.recordings.iter().zip(&references) {
-            let scores = of_recording(wanted, path, reference, model, &bar)
+            let scores = of_recording(wanted, path, reference, model, stages.as_ref())
                 .with_context(|| path.display().to_string())?;
             of_model.push((short_name(path), scores));
         }
@@ -50,14 +63,12 @@ pub fn run(wanted: &Wanted<'_>) -> Result<Ending> {
     if let Some((_, (_, scores))) =
         results.first_mut().and_then(|(name, of_model)| Some((name, of_model.first_mut()?)))
     {
-        scores.calibrations.extend(tags(wanted, &bar)?);
+        scores.calibrations.extend(tags(wanted, stages.as_ref())?);
     }
-    bar.finish();
+    drop(stages);
     let results: Vec<(&str, &[(String, Scores)])> =
         results.iter().map(|(name, scores)| (*name, scores.as_slice())).collect();
-    let tables = tables(&results);
-    deliver(wanted, &tables)?;
-    Ok(Ending::Done)
+    Ok(tables(&results))
 }
 
 fn deliver(wanted: &Wanted<'_>, tables: &[Table]) -> Result<()> {
@@ -131,7 +142,7 @@ fn of_recording(
     path: &Path,
     reference: &Reference,
     model: &Model,
-    bar: &Bar,
+    progress: &dyn Progress,
 ) -> Result<Scores> {
     let recording = Recording::open(path, &BagOptions::default())?;
     let arm: Arm = wanted.robot.arm(path, &recording)?;
@@ -139,11 +150,11 @@ fn of_recording(
         check_arm(path, &arm)?;
     }
     let request = Request { cache: wanted.cache.open(), ..Request::new(recording.source(), &arm) };
-    Ok(session(&request, reference, model, bar)?)
+    Ok(session(&request, reference, model, progress)?)
 }
 
 /// Calibrations by the marker, if there is one.
-fn tags(wanted: &Wanted<'_>, bar: &Bar) -> Result<Vec<Calibrated>> {
+fn tags(wanted: &Wanted<'_>, progress: &dyn Progress) -> Result<Vec<Calibrated>> {
     let Some(target) = wanted.marker else { return Ok(Vec::new()) };
     let of = |path: &PathBuf| -> Result<Calibrated> {
         let camera_from_base = read_truth(path)?.camera_from_base;
@@ -151,7 +162,7 @@ fn tags(wanted: &Wanted<'_>, bar: &Bar) -> Result<Vec<Calibrated>> {
         let arm = wanted.robot.arm(path, &recording)?;
         check_arm(path, &arm)?;
         let request = Request::new(recording.source(), &arm);
-        Ok(by_marker(&request, &Reference { camera_from_base }, target, bar)?)
+        Ok(by_marker(&request, &Reference { camera_from_base }, target, progress)?)
     };
     let each =
         wanted.marked.iter().map(|path| of(path).with_context(|| path.display().to_string()));

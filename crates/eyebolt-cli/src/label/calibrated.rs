@@ -1,7 +1,7 @@
 //! The calibration that a recording is labelled by.
 
 use crate::calibrate;
-use crate::progress::Bar;
+use crate::front::Front;
 use anyhow::Result;
 use eyebolt::answer::Answer;
 use eyebolt::calibrate::Verdict;
@@ -33,10 +33,15 @@ pub fn given(
 }
 
 /// What `request` sees, calibrated from nothing; the reasons if that is refused.
-pub fn from_nothing(request: &Request<'_>, path: &Path) -> Result<Result<Known, Vec<String>>> {
-    let bar = Bar::new();
-    let outcome = pipeline::run(request, &bar).map_err(|error| calibrate::named(error, path))?;
-    bar.finish();
+pub fn from_nothing(
+    request: &Request<'_>,
+    path: &Path,
+    front: &dyn Front,
+) -> Result<Result<Known, Vec<String>>> {
+    let stages = front.stages()?;
+    let outcome = pipeline::run(request, stages.as_ref());
+    let outcome = outcome.map_err(|error| calibrate::named(error, path))?;
+    drop(stages);
     let json = Answer::new(request, &outcome).to_json();
     Ok(match (outcome.calibration.verdict, outcome.observations) {
         (Verdict::Refused(reasons), _) => Err(reasons.iter().map(ToString::to_string).collect()),

@@ -4,8 +4,8 @@ use super::arguments::Arguments;
 use super::calibrated::{Known, from_nothing, given};
 use super::told::{Labelled, Told};
 use crate::calibrate;
+use crate::front::Front;
 use crate::output;
-use crate::progress::Counting;
 use crate::robots::told;
 use anyhow::{Context, Result, bail};
 use eyebolt::dataset::{
@@ -26,11 +26,17 @@ pub struct Labelling<'a> {
     folder: &'a Path,
     /// Name and text of the calibration that was given.
     calibration: Option<(String, String)>,
+    front: &'a dyn Front,
 }
 
 impl<'a> Labelling<'a> {
-    /// Reads the calibration, if one is given.
-    pub fn new(arguments: &'a Arguments, folder: &'a Path) -> Result<Self> {
+    /// By `calibration` (name and text), or the one that `arguments` name, which is read.
+    pub fn new(
+        arguments: &'a Arguments,
+        folder: &'a Path,
+        calibration: Option<(String, String)>,
+        front: &'a dyn Front,
+    ) -> Result<Self> {
         let read = |path: &PathBuf| -> Result<(String, String)> {
             let name = path.display().to_string();
             // Checked before any work is done.
@@ -38,15 +44,18 @@ impl<'a> Labelling<'a> {
             let failed = || format!("{name}: cannot read the calibration");
             Ok((name.clone(), std::fs::read_to_string(path).with_context(failed)?))
         };
-        let calibration = arguments.calibration.as_ref().map(read).transpose()?;
-        Ok(Self { arguments, folder, calibration })
+        let calibration = match calibration {
+            Some(calibration) => Some(calibration),
+            None => arguments.calibration.as_ref().map(read).transpose()?,
+        };
+        Ok(Self { arguments, folder, calibration, front })
     }
 
     /// Labels the frames of the recording at `path` that are in this shard.
     pub fn label(&self, path: &Path) -> Result<Told> {
         let arguments = self.arguments;
         let recording = Recording::open(path, &arguments.bag.options_of(&arguments.robot))?;
-        let arm = told(arguments.robot.arm(path, &recording)?);
+        let arm = told(arguments.robot.arm(path, &recording)?, self.front);
         let recording = arguments.robot.noted(recording, &arm)?;
         let end_effector = EndEffector::of(&arm)?;
         let options = RecordOptions { use_masks: !arguments.no_masks, ..RecordOptions::default() };
@@ -73,9 +82,9 @@ impl<'a> Labelling<'a> {
         let look = |file: &str, frame: &DatasetFrame| {
             self.draw(file, frame, &end_effector).map_err(Into::into)
         };
-        let bar = Counting::new()?;
-        let filled = fill(&mut store, &entry, source, &run, &look, &bar);
-        drop(bar);
+        let parts = self.front.parts()?;
+        let filled = fill(&mut store, &entry, source, &run, &look, parts.as_ref());
+        drop(parts);
         let filled = filled.map_err(|error| named(error, path))?;
         Ok(Told::Labelled(Labelled::new(path, &filled)))
     }
@@ -96,7 +105,7 @@ impl<'a> Labelling<'a> {
             // That it is another one is for the store to say.
             (_, Some((_, json))) => (json.clone(), Calibrated::Given),
             (Some((before, there)), None) => (there, before.calibrated),
-            (None, None) => return from_nothing(request, path),
+            (None, None) => return from_nothing(request, path, self.front),
         };
         given(request, path, json, calibrated).map(Ok)
     }

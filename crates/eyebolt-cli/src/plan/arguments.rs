@@ -115,7 +115,7 @@ impl Arguments {
     }
 
     /// Opens the recording at `path`.
-    pub fn open(&self, path: &Path) -> Result<Recording> {
+    pub fn open(&self, path: &Path) -> Result<Recording<'static>> {
         Ok(Recording::open(path, &self.bag.options_of(&self.robot))?)
     }
 }

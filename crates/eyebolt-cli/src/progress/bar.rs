@@ -54,6 +54,12 @@ impl Clock {
     }
 }
 
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
 impl Progress for Bar {
     fn begin(&self, stage: &'static str) -> Result<(), Cancelled> {
         self.clock.borrow_mut().turn(stage);

@@ -2,6 +2,7 @@
 
 use super::lab_flags::LabArguments;
 use super::numbers::{number, pair, range};
+use crate::front::Front;
 use crate::robots::{Described, DescriptionArguments, told};
 use crate::shell::quoted;
 use anyhow::Result;
@@ -55,12 +56,12 @@ impl RobotArguments {
         robot + &packages.chain(arguments).collect::<String>()
     }
 
-    pub fn read(&self) -> Result<DescribedArm> {
+    pub fn read(&self, front: &dyn Front) -> Result<DescribedArm> {
         let Described { robot, text: urdf, about } = self.description.named(&self.robot)?;
         let known = about.as_ref();
         let base = self.base.as_deref().or(known.map(|about| about.base.as_str()));
         let hand = self.end_effector.as_deref().or(known.map(|about| about.end_effector.as_str()));
-        Ok(DescribedArm { arm: told(robot.arm(base, hand)?), urdf })
+        Ok(DescribedArm { arm: told(robot.arm(base, hand)?, front), urdf })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The folder of a network, while it is taught and after.
 
+use crate::front::Front;
 use crate::output;
 use anyhow::{Context, Result};
 use eyebolt::train::{Keep, Report, TrainError, events};
@@ -8,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 /// A folder with `model.toml` and `weights.safetensors`; until they are there, with a checkpoint; and with
 /// what was reported, as JSON lines and for TensorBoard.
-pub struct ModelFolder {
+pub struct ModelFolder<'a> {
+    front: &'a dyn Front,
     path: PathBuf,
     force: bool,
     reports: Vec<Report>,
@@ -20,13 +22,13 @@ const CHECKPOINT: &str = "checkpoint";
 const LOG: &str = "log.jsonl";
 const EVENTS: &str = "events.out.tfevents.eyebolt";
 
-impl ModelFolder {
+impl<'a> ModelFolder<'a> {
     /// At `path`, which is made; with `force`, what is there is as if it were not.
-    pub fn new(path: &Path, force: bool) -> Result<Self> {
+    pub fn new(path: &Path, force: bool, front: &'a dyn Front) -> Result<Self> {
         let failed =
             || format!("{}: cannot make the folder. Name another with --output", path.display());
         std::fs::create_dir_all(path).with_context(failed)?;
-        let mut folder = Self { path: path.to_owned(), force, reports: Vec::new() };
+        let mut folder = Self { front, path: path.to_owned(), force, reports: Vec::new() };
         if !force && folder.checkpoint()?.is_some() {
             folder.reports = folder.read_log();
         }
@@ -58,7 +60,7 @@ impl ModelFolder {
     pub fn weights_of(&self, model: &Path) -> Result<Option<Vec<u8>>> {
         let own = self.path.file_name().unwrap_or_default();
         if model.join("segmentation").is_dir() && !model.join(own).is_dir() {
-            output::say(&format!("  {} has none to begin with", model.display()));
+            self.front.say(&format!("  {} has none to begin with", model.display()));
             return Ok(None);
         }
         let path = model.join(own).join(WEIGHTS);
@@ -83,9 +85,10 @@ impl ModelFolder {
         output::write_whole(&self.path.join(DESCRIPTION), text.as_bytes(), true)?;
         let checkpoint = self.path.join(CHECKPOINT);
         match std::fs::remove_file(&checkpoint) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => output::complain(
-                &format!("note: {}: still there: {}", checkpoint.display(), error.kind()),
-            ),
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                let note = format!("{}: still there: {}", checkpoint.display(), error.kind());
+                self.front.note(&note);
+            }
             _ => {}
         }
         Ok(())
@@ -100,7 +103,7 @@ impl ModelFolder {
     }
 }
 
-impl Keep for ModelFolder {
+impl Keep for ModelFolder<'_> {
     fn report(&mut self, report: &Report) -> Result<(), TrainError> {
         // After a kill, what was reported beyond the checkpoint comes again.
         self.reports.retain(|before| before.step < report.step);
@@ -117,7 +120,7 @@ impl Keep for ModelFolder {
         let scores: Vec<String> =
             report.scores.iter().map(|(name, value)| format!("{name} {value:.3}")).collect();
         let best = if report.is_best { " (best)" } else { "" };
-        output::say(&format!(
+        self.front.say(&format!(
             "  step {} of {}, loss {:.4}, {}{best}",
             report.step,
             report.steps,

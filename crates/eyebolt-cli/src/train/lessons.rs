@@ -2,7 +2,7 @@
 
 use super::arguments::{Arguments, Kind};
 use super::folder::ModelFolder;
-use crate::output;
+use crate::front::Front;
 use crate::robots::packages;
 use anyhow::{Result, bail};
 use eyebolt::dataset::Dataset;
@@ -18,21 +18,26 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Teaches the network of `kind`, or goes on with it; one that is ready is left as it is.
-pub fn teach(arguments: &Arguments, kind: Kind, progress: &dyn Progress) -> Result<()> {
-    let folder = ModelFolder::new(&arguments.output.join(kind.name()), arguments.force)?;
+pub fn teach(
+    arguments: &Arguments,
+    kind: Kind,
+    front: &dyn Front,
+    progress: &dyn Progress,
+) -> Result<()> {
+    let folder = ModelFolder::new(&arguments.output.join(kind.name()), arguments.force, front)?;
     if folder.is_ready() {
-        output::say(&format!(
+        front.say(&format!(
             "{}: is there already; --force teaches it anew",
             folder.path().display()
         ));
         return Ok(());
     }
-    output::say(&format!("{}:", kind.name()));
+    front.say(&format!("{}:", kind.name()));
     if arguments.any_arm {
         let (cast, about) = any_arm(arguments)?;
         return segmentation(arguments, Images::simulated(cast), 2, &about, folder, progress);
     }
-    let arm = arguments.robot.read()?.arm;
+    let arm = arguments.robot.read(front)?.arm;
     let about = format!(
         "{}, end-effector {}, description {}",
         arm.robot().name,
@@ -86,7 +91,7 @@ fn segmentation(
     images: Images,
     classes: usize,
     about: &str,
-    folder: ModelFolder,
+    folder: ModelFolder<'_>,
     progress: &dyn Progress,
 ) -> Result<()> {
     let net = arguments.preset.segmentation(classes)?;
@@ -119,7 +124,7 @@ fn images(arguments: &Arguments, arm: Arm) -> Result<Images> {
 fn finish<L: Lesson>(
     arguments: &Arguments,
     lesson: &L,
-    mut folder: ModelFolder,
+    mut folder: ModelFolder<'_>,
     progress: &dyn Progress,
 ) -> Result<()> {
     let begun = Instant::now();

@@ -3,11 +3,16 @@
 use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
 use crate::frame::Range;
+use crate::frame_names;
 use crate::joints;
 use crate::unit_check::check_unit;
 use eyebolt_geometry::{Mask, PinholeCamera};
-use eyebolt_robot::JointPositions;
+use eyebolt_robot::{Input, JointPositions};
+use std::collections::BTreeSet;
 use std::path::Path;
+
+/// What a source in memory is called, until it is given a name.
+pub(super) const NAME: &str = "in memory";
 
 const WHOLE: &str = "Both must be of the same camera and size";
 
@@ -15,15 +20,22 @@ const WHOLE: &str = "Both must be of the same camera and size";
 pub(super) struct Place<'a> {
     source: &'a Path,
     name: String,
+    /// What depth was stored in, where a caller told.
+    unit: Option<DepthUnit>,
 }
 
 impl<'a> Place<'a> {
     pub(super) fn frame(source: &'a str, name: &str) -> Self {
-        Self { source: Path::new(source), name: format!("frame {name}") }
+        Self { source: Path::new(source), name: format!("frame {name}"), unit: None }
     }
 
     pub(super) fn background(source: &'a str, index: usize) -> Self {
-        Self { source: Path::new(source), name: format!("background {index}") }
+        Self { source: Path::new(source), name: format!("background {index}"), unit: None }
+    }
+
+    /// The same, of depth that a caller says was stored in `unit`.
+    pub(super) fn stored_in(self, unit: DepthUnit) -> Self {
+        Self { unit: Some(unit), ..self }
     }
 
     pub(super) fn invalid(
@@ -53,14 +65,35 @@ impl<'a> Place<'a> {
         Err(self.invalid(field, problem, WHOLE))
     }
 
-    /// Refuses lengths that cannot be in metres.
+    /// Refuses a name that no file could have, or that is `known`.
+    pub(super) fn check_name(
+        &self,
+        name: &str,
+        known: &BTreeSet<String>,
+    ) -> Result<(), RecordingError> {
+        if !frame_names::is_fit(name) {
+            let problem = "the name cannot be part of the name of a file";
+            return Err(self.invalid("name", problem, "Name it by a number, or without / and \\"));
+        }
+        match known.contains(name) {
+            true => Err(self.invalid("name", "there is a frame of this name", "Give each its own")),
+            false => Ok(()),
+        }
+    }
+
+    /// Refuses lengths that cannot have been in metres, or in the unit that the caller told.
     pub(super) fn check_metres(
         &self,
         field: &str,
         lengths_m: impl ExactSizeIterator<Item = f32> + Clone,
     ) -> Result<(), RecordingError> {
-        check_unit(self.source, field, DepthUnit::METRES, lengths_m)
-            .map_err(|error| self.invalid(field, error.problem(), "Hand in metres"))
+        let unit = self.unit.unwrap_or(DepthUnit::METRES);
+        let remedy = match self.unit {
+            None => "Hand in metres".to_owned(),
+            Some(_) => format!("Say what one of its numbers is with {}", Input::DEPTH_UNIT),
+        };
+        check_unit(self.source, field, unit, lengths_m)
+            .map_err(|error| self.invalid(field, error.problem(), &remedy))
     }
 
     /// Refuses a depth image or cloud that does not fit `camera`, saw nothing or is in another unit.

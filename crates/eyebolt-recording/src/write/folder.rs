@@ -111,7 +111,7 @@ fn frames(
     if found.frames == 0 { Err(left_out.none_left()) } else { Ok(found) }
 }
 
-fn recording_path(recording: &Recording) -> &Path {
+fn recording_path<'r>(recording: &'r Recording<'_>) -> &'r Path {
     Path::new(&recording.provenance().name)
 }
 

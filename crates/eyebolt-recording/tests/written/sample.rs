@@ -168,7 +168,7 @@ impl Desk {
 }
 
 #[track_caller]
-pub fn open(path: &Path) -> Recording {
+pub fn open(path: &Path) -> Recording<'static> {
     let opened = Recording::open(path, &BagOptions::default());
     opened.unwrap_or_else(|error| panic!("{error}"))
 }

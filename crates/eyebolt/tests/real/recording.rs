@@ -62,7 +62,7 @@ impl Default for Variant {
 
 /// Everything a run needs, kept alive.
 pub struct Opened {
-    pub recording: Recording,
+    pub recording: Recording<'static>,
     arm: Arm,
     cache: LinkCache,
     masks: bool,

@@ -67,7 +67,7 @@ pub fn bytes(plan: &Plan<'_>) -> Vec<u8> {
 
 /// A recording, as its readers see it.
 pub struct Recorded {
-    pub recording: Recording,
+    pub recording: Recording<'static>,
     pub truth: Truth,
     _folder: TempDir,
 }
