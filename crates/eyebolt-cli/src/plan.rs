@@ -7,6 +7,7 @@ mod lines;
 pub use arguments::Arguments;
 
 use crate::ending::Ending;
+use crate::front::Terminal;
 use crate::inputs::use_threads;
 use crate::output::{self, STDOUT};
 use crate::robots::told;
@@ -33,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     match &arguments.recording {
         Some(path) => {
             let recording = arguments.open(path)?;
-            let arm = told(arguments.robot.arm(path, &recording)?);
+            let arm = told(arguments.robot.arm(path, &recording)?, &Terminal);
             let recording = arguments.robot.noted(recording, &arm)?;
             let known = Known::of(arguments, path, recording.source(), &arm, file)?;
             let cameras = [known.camera.clone()];
@@ -46,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
                      --robot arm.urdf, with --camera c.json if you know about where the camera is"
                 );
             };
-            let arm = told(arm);
+            let arm = told(arm, &Terminal);
             let joints: JointPositions = arguments.robot.stated_joints().collect();
             let known = file.map(|file| Known::of_file(&arm, file)).transpose()?;
             let cameras = match &known {
