@@ -12,6 +12,8 @@ mod info;
 mod init;
 mod inputs;
 mod label;
+#[cfg(feature = "live")]
+mod live;
 mod logging;
 mod man;
 mod monitor;
@@ -113,6 +115,13 @@ enum Command {
     /// An alarm says how far the arm is from where the calibration has it, and what moved, as far as that can be told. A
     /// new calibration is proposed, never applied. Exit status 3 with an alarm.
     Monitor(Box<monitor::Arguments>),
+    /// Calibrate while it happens: listen to a ROS 2 system, say when the arm may go on, end when it is good enough
+    ///
+    /// No ROS is needed on this machine. Move the arm from one place to another and let it rest in each: every new
+    /// configuration is taken by itself, or when you press Enter. What comes in is a recording from the first message on, so
+    /// that nothing is lost if the program is killed.
+    #[cfg(feature = "live")]
+    Live(Box<live::Arguments>),
     /// Write a calibration in the form that another program reads: tf2, URDF, hand-eye files, matrices
     Export(export::Arguments),
     /// Print what makes a shell complete commands and flags: `eyebolt completions bash > FILE`
@@ -146,6 +155,8 @@ fn main() -> ExitCode {
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        #[cfg(feature = "live")]
+        Command::Live(arguments) => live::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
         Command::Man(arguments) => man::run(&arguments, Arguments::command()),

@@ -1,95 +1,54 @@
 //! `eyebolt monitor`.
 
+mod arguments;
 mod lines;
+#[cfg(feature = "live")]
+mod live;
+mod teller;
 
 use crate::calibrate::named;
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, positive, use_threads};
-use crate::output;
+use crate::inputs::{RecordingArguments, use_threads};
 use crate::robots::told;
-use anyhow::{Result, bail};
+use anyhow::Result;
+pub use arguments::Arguments;
+use arguments::check_base;
 use eyebolt::export::SavedCalibration;
-use eyebolt::monitor::{Known, Rate, ViewReport, Watched, watch};
+use eyebolt::monitor::{Known, Watched, watch};
 use eyebolt::pipeline::Failure;
-use eyebolt::record::{RecordError, RecordOptions, observe};
-use std::path::PathBuf;
-
-/// Options of `eyebolt monitor`.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {
-    /// The calibration to watch
-    calibration: PathBuf,
-    #[command(flatten)]
-    recording: RecordingArguments,
-    #[command(flatten)]
-    robot: RobotArguments,
-    /// False alarms that are allowed in an hour, on average
-    #[arg(long, value_name = "NUMBER", default_value_t = Rate::default().false_alarms_per_hour, value_parser = positive)]
-    false_alarms_per_hour: f64,
-    /// How many resting views there are in an hour
-    #[arg(long, value_name = "NUMBER", default_value_t = Rate::default().views_per_hour, value_parser = positive)]
-    views_per_hour: f64,
-    /// How many frames of each rest are looked at
-    #[arg(long, value_name = "NUMBER", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
-    per_rest: u16,
-    /// Watch a calibration that was refused, too
-    #[arg(long)]
-    even_if_refused: bool,
-    /// Find the arm's pixels without the recording's masks
-    #[arg(long)]
-    no_masks: bool,
-    /// JSON, a line for each view, instead of text
-    #[arg(long)]
-    json: bool,
-    /// Threads to use; otherwise one for each core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    #[command(flatten)]
-    cache: CacheArguments,
-}
-
-/// Of the recording's configurations, as many as tell the camera and the noise of its depth.
-const FEW: usize = 2;
-
-/// Why watching ended early.
-enum Ended {
-    Record(RecordError),
-    Output(anyhow::Error),
-}
-
-impl From<RecordError> for Ended {
-    fn from(error: RecordError) -> Self {
-        Self::Record(error)
-    }
-}
+use eyebolt::record::observe;
+use std::path::Path;
+use teller::{Ended, Teller};
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let calibration = SavedCalibration::read(&arguments.calibration)?;
     calibration.base_from_camera(arguments.even_if_refused)?;
-    let path = &arguments.recording.recording;
-    let recording = arguments.recording.open_of(&arguments.robot)?;
-    let arm = told(arguments.robot.arm(path, &recording)?);
-    let recording = arguments.robot.noted(recording, &arm)?;
-    if calibration.base_frame.as_str() != arm.base_name() {
-        bail!(
-            "{}: frames.base: the calibration is of {}, but the arm's base is {}. Name it with --base, or give \
-             another calibration",
-            calibration.file(),
-            calibration.base_frame.as_str(),
-            arm.base_name()
-        );
+    match &arguments.recording {
+        Some(path) => watch_recording(arguments, path, &calibration),
+        #[cfg(feature = "live")]
+        None => live::watch(arguments, &calibration),
+        #[cfg(not(feature = "live"))]
+        None => anyhow::bail!("no recording: give one"),
     }
-    let options = RecordOptions { use_masks: !arguments.no_masks, most_configurations: FEW };
+}
+
+fn watch_recording(
+    arguments: &Arguments,
+    path: &Path,
+    calibration: &SavedCalibration,
+) -> Result<Ending> {
+    let recording = RecordingArguments { recording: path.to_owned(), bag: arguments.bag.clone() };
+    let recording = recording.open_of(&arguments.robot)?;
+    let arm = told(arguments.robot.arm(path, &recording)?);
+    check_base(calibration, &arm)?;
+    let recording = arguments.robot.noted(recording, &arm)?;
+    let options = arguments.options();
     let source = recording.source();
     let failed = |error| named(Failure::Record(error), path);
     let observations = observe(source, &arm, &arguments.cache.open(), &options).map_err(failed)?;
-    let known = Known::new(&calibration, &observations, arguments.even_if_refused)?;
-    let rate = Rate {
-        views_per_hour: arguments.views_per_hour,
-        false_alarms_per_hour: arguments.false_alarms_per_hour,
-    };
+    let known = Known::new(calibration, &observations, arguments.even_if_refused)?;
     let watched = Watched {
         source,
         arm: &arm,
@@ -97,26 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         options: &options,
         per_rest: usize::from(arguments.per_rest),
     };
-    let mut last = None;
-    let (mut views, mut counted) = (0, 0);
-    let ended = watch::<Ended>(&watched, known, &rate, |report: ViewReport| {
-        let line = match arguments.json {
-            true => serde_json::to_string(&report).map_err(|e| Ended::Output(e.into()))?,
-            false => lines::view(&report),
-        };
-        output::deliver(format!("{line}\n").as_bytes()).map_err(Ended::Output)?;
-        views += 1;
-        counted += usize::from(report.counts);
-        last = Some(report);
-        Ok(())
-    });
-    let alarm = match ended {
-        Err(Ended::Record(error)) => return Err(failed(error)),
-        Err(Ended::Output(error)) => return Err(error),
-        Ok(alarm) => alarm,
-    };
-    if !arguments.json {
-        output::say(&lines::ending(last.as_ref(), views, counted));
-    }
-    Ok(if alarm { Ending::Refused } else { Ending::Done })
+    let mut teller = Teller::new(arguments.json);
+    let ended = watch::<Ended>(&watched, known, &arguments.rate(), |report| teller.tell(report));
+    let alarm = ended.map_err(|ended| ended.into_error(failed))?;
+    Ok(teller.end(alarm))
 }

@@ -15,8 +15,9 @@ mod verdict;
 
 pub use calibration::Calibration;
 pub use deviation::Deviation;
+pub use error::covariance_at;
+pub(crate) use error::expected_at;
 pub use error::{ErrorEstimate, ErrorPart, ErrorSource};
-pub(crate) use error::{covariance_at, expected_at};
 pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;
