@@ -5,9 +5,9 @@ mod calibrator;
 pub mod domain;
 mod keyboard;
 mod lines;
+mod listening;
 mod publish;
 mod recorder;
-mod show;
 
 use crate::calibrate;
 use crate::ending::Ending;
@@ -18,8 +18,8 @@ use anyhow::{Result, bail};
 pub use arguments::Arguments;
 use calibrator::Calibrator;
 use keyboard::Keyboard;
+use listening::{Ended, Listening};
 use recorder::Recorder;
-use show::{Ended, Show};
 use std::path::Path;
 
 /// Runs the command.
@@ -33,8 +33,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     arguments.robot.check_named()?;
     let session = arguments.session.clone();
     let session = session.unwrap_or_else(|| arguments.output.with_file_name("session.mcap"));
-    let recorder = Recorder::new(&session, arguments.force)?;
+    output::refuse_existing(&session, arguments.force)?;
     let bus = arguments.domain.join(arguments.bag.topics())?;
+    let recorder = Recorder::new(&session, arguments.force)?;
     let interrupt = Interrupt::new()?;
     output::say(&lines::beginning(&arguments.domain, &session, &arguments.goal));
     let calibrator = Calibrator::start(
@@ -43,9 +44,9 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         (arguments.cache.open(), arguments.limits.limits(), arguments.seed),
     )?;
     let keyboard = Keyboard::listen()?;
-    let mut show = Show::new(arguments, &bus, recorder, calibrator)?;
-    let ended = show.run(&keyboard, &interrupt)?;
-    let taken = show.finish()?;
+    let mut listening = Listening::new(arguments, &bus, recorder, calibrator)?;
+    let ended = listening.run(&keyboard, &interrupt)?;
+    let taken = listening.finish()?;
     if taken < eyebolt_live::FEWEST {
         bail!(
             "{}: {taken} configurations are too few to calibrate: {} are the least. What came in is there",

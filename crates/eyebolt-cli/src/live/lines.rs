@@ -26,14 +26,16 @@ pub fn waiting(missing: &[&str]) -> String {
     format!("waiting for {}", missing.join(", "))
 }
 
+/// That messages of a topic got lost.
+pub fn lost(topic: &str, count: u64, total: u64) -> String {
+    format!("LOST {count} of {topic} ({total} by now)")
+}
+
 /// What there is to say of an event, if anything is.
 pub fn event(event: &Event) -> Option<String> {
     Some(match event {
         Event::Heard { topic, message_type } => format!("heard {topic} ({message_type})"),
         Event::NoDepth { topic } => format!("{topic} has no depth: not listened to"),
-        Event::Lost { topic, count, total } => {
-            format!("LOST {count} of {topic} ({total} by now)")
-        }
         Event::Unreadable { topic, problem } => format!("{topic} cannot be read: {problem}"),
         Event::Taken { configuration } => {
             format!("configuration {} taken: go on", configuration + 1)
@@ -46,7 +48,9 @@ pub fn event(event: &Event) -> Option<String> {
         }
         Event::NotPlaced { problem } => format!("cannot take it: {}", names::in_flags(problem)),
         Event::Silent => "no joint states any more".to_owned(),
-        Event::Description(_)
+        // Summed up once a second.
+        Event::Lost { .. }
+        | Event::Description(_)
         | Event::AtRest
         | Event::Moves
         | Event::Calibrate

@@ -1,17 +1,18 @@
 //! One participant on a thread of its own.
 
 use super::guard;
-use super::listeners::Listeners;
+use super::listeners::{Account, Listeners};
 use super::publishers::{Outgoing, Publishers};
 use crate::choice::TopicChoice;
 use crate::incoming::Incoming;
 use crate::queue::Queue;
 use rustdds::dds::CreateError;
 use rustdds::{DomainParticipant, DomainParticipantBuilder};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::net::Ipv4Addr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -72,6 +73,7 @@ pub struct Bus {
     queue: Arc<Queue>,
     commands: Option<Sender<Command>>,
     thread: Option<JoinHandle<()>>,
+    restarts: Arc<AtomicU64>,
 }
 
 impl Bus {
@@ -88,18 +90,19 @@ impl Bus {
         let queue = Arc::new(Queue::new(options.most_bytes));
         let (commands, received) = mpsc::channel();
         let (begun, beginning) = mpsc::channel();
-        let domain = options.domain;
+        let (domain, restarts) = (options.domain, Arc::default());
         let failed = |problem: String| BusError::Transport { domain, problem };
         let worker = Worker {
             options,
             queue: Arc::clone(&queue),
             commands: received,
-            closed: BTreeSet::new(),
+            account: Account::default(),
+            restarts: Arc::clone(&restarts),
             last: BTreeMap::new(),
         };
         let thread = std::thread::Builder::new().name("eyebolt-bus".to_owned());
         let thread = thread.spawn(move || worker.run(&begun)).map_err(|e| failed(e.to_string()))?;
-        let bus = Self { queue, commands: Some(commands), thread: Some(thread) };
+        let bus = Self { queue, commands: Some(commands), thread: Some(thread), restarts };
         match beginning.recv() {
             Ok(Ok(())) => Ok(bus),
             Ok(Err(problem)) => Err(failed(problem)),
@@ -110,6 +113,12 @@ impl Bus {
     /// The next message, waiting for one at most so long.
     pub fn next(&self, wait: Duration) -> Option<Incoming> {
         self.queue.pop(wait)
+    }
+
+    /// How often the transport broke and was started again. What came meanwhile is lost, and told as lost if publishers went
+    /// on.
+    pub fn restarts(&self) -> u64 {
+        self.restarts.load(Ordering::SeqCst)
     }
 
     /// Listens to `topic` no longer.
@@ -142,7 +151,8 @@ struct Worker {
     options: BusOptions,
     queue: Arc<Queue>,
     commands: Receiver<Command>,
-    closed: BTreeSet<String>,
+    account: Account,
+    restarts: Arc<AtomicU64>,
     /// What was published last, for a transport that has to be started again.
     last: BTreeMap<Outgoing, Vec<u8>>,
 }
@@ -167,7 +177,7 @@ impl Worker {
                     return;
                 }
                 Ok(Ok(End::Broken) | Err(_)) | Err(_) => {
-                    tracing::debug!("the transport is started again");
+                    self.restarts.fetch_add(1, Ordering::SeqCst);
                     std::thread::sleep(DISCOVERY);
                 }
             }
@@ -183,8 +193,8 @@ impl Worker {
     ) -> Result<End, CreateError> {
         let broken = guard::broken();
         let participant = self.participant()?;
-        let closed = std::mem::take(&mut self.closed);
-        let mut listeners = Listeners::new(&participant, self.options.choice.clone(), closed)?;
+        let account = std::mem::take(&mut self.account);
+        let mut listeners = Listeners::new(&participant, self.options.choice.clone(), account)?;
         let mut publishers = Publishers::new(&participant)?;
         if first {
             drop(begun.send(Ok(())));
@@ -195,7 +205,7 @@ impl Worker {
         let mut looked: Option<Instant> = None;
         loop {
             if guard::broken() != broken {
-                self.closed = listeners.closed().clone();
+                self.account = listeners.into_account();
                 return Ok(End::Broken);
             }
             if looked.is_none_or(|at| at.elapsed() >= DISCOVERY) {

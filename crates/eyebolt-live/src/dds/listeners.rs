@@ -21,15 +21,22 @@ pub(super) struct Listeners {
     subscriber: Subscriber,
     choice: TopicChoice,
     listeners: BTreeMap<String, Listener>,
+    account: Account,
+}
+
+/// What outlives a participant.
+#[derive(Default)]
+pub(super) struct Account {
     /// Topics that turned out not to be needed.
     closed: BTreeSet<String>,
+    /// What came of each topic: publishers go on counting while nobody hears them.
+    gaps: BTreeMap<String, Gaps<GUID>>,
 }
 
 struct Listener {
     message_type: String,
     asked: Offer,
     reader: DataReader<Raw, AsBytes>,
-    gaps: Gaps<GUID>,
 }
 
 /// Messages that wait in the transport until they are taken. Of images it is taken some hundred times a second.
@@ -43,22 +50,22 @@ impl Listeners {
     pub(super) fn new(
         participant: &DomainParticipant,
         choice: TopicChoice,
-        closed: BTreeSet<String>,
+        account: Account,
     ) -> CreateResult<Self> {
         let subscriber = participant.create_subscriber(&QosPolicyBuilder::new().build())?;
         let (participant, listeners) = (participant.clone(), BTreeMap::new());
-        Ok(Self { participant, subscriber, choice, listeners, closed })
+        Ok(Self { participant, subscriber, choice, listeners, account })
     }
 
-    /// Topics that turned out not to be needed.
-    pub(super) fn closed(&self) -> &BTreeSet<String> {
-        &self.closed
+    /// What outlives the participant.
+    pub(super) fn into_account(self) -> Account {
+        self.account
     }
 
     /// Listens to `topic` no longer.
     pub(super) fn close(&mut self, topic: &str) {
         self.listeners.remove(topic);
-        self.closed.insert(topic.to_owned());
+        self.account.closed.insert(topic.to_owned());
     }
 
     /// Looks for publishers, and listens to those that are wanted in the way that all of them offer.
@@ -68,7 +75,7 @@ impl Listeners {
             let data = &writer.publication_topic_data;
             let named = ros_topic(&data.topic_name).zip(ros_type(&data.type_name));
             let Some((topic, message_type)) = named else { continue };
-            if self.choice.wants(&topic, &message_type) && !self.closed.contains(&topic) {
+            if self.choice.wants(&topic, &message_type) && !self.account.closed.contains(&topic) {
                 offers.entry((topic, message_type)).or_default().push(offer(&data.qos()));
             }
         }
@@ -96,20 +103,21 @@ impl Listeners {
         let (name, kind) = (dds_topic(topic), dds_type(&message_type));
         let dds = self.participant.create_topic(name, kind, &qos, TopicKind::NoKey)?;
         let reader = self.subscriber.create_datareader_no_key::<Raw, AsBytes>(&dds, Some(qos))?;
-        Ok(Listener { message_type, asked, reader, gaps: Gaps::default() })
+        Ok(Listener { message_type, asked, reader })
     }
 
     /// Puts what came into `queue`, stamped by `now_ns`; whether there was anything.
     pub(super) fn take(&mut self, queue: &Queue, now_ns: impl Fn() -> i64) -> bool {
         let mut any = false;
         for (topic, listener) in &mut self.listeners {
+            let gaps = self.account.gaps.entry(topic.clone()).or_default();
             for _ in 0..AT_ONCE {
                 // What the transport cannot read is told by the gap that it leaves.
                 let Ok(Some(sample)) = listener.reader.take_next_sample() else { break };
                 any = true;
                 let info = sample.sample_info();
                 let number = info.sample_identity().sequence_number.into();
-                let lost_before = listener.gaps.before(info.writer_guid(), number);
+                let lost_before = gaps.before(info.writer_guid(), number);
                 queue.push(Incoming {
                     topic: topic.clone(),
                     message_type: listener.message_type.clone(),

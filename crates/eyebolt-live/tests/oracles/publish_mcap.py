@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Publishes an MCAP in real time with CycloneDDS, byte for byte, as its drivers would have.
 
-    publish_mcap.py FILE DOMAIN [--reliable] [--namespace NS] [--skip-s S] [--repeat N] [--linger S] [--rate FACTOR]
+    publish_mcap.py FILE DOMAIN [--reliable] [--namespace NS] [--skip-s S] [--repeat N] [--linger S] [--rate FACTOR] [--stamp-now]
 
 Says `begun` when the first message is out and `published N` of each topic at the end. Depth goes out best-effort, as
 drivers of cameras do by default, or reliable; descriptions and static transforms are kept for those who come late.
@@ -9,6 +9,7 @@ drivers of cameras do by default, or reliable; descriptions and static transform
 
 import argparse
 import collections
+import struct
 import sys
 import time
 
@@ -33,6 +34,17 @@ def quality(kind, reliable):
     return Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(10))
 
 
+STAMPED = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/JointState"}
+
+
+def later(data, by_ns):
+    """The message with its stamp, the first field, so much later."""
+    order = "<" if data[1] & 1 else ">"
+    seconds, nanoseconds = struct.unpack_from(order + "iI", data, 4)
+    stamp = seconds * 10**9 + nanoseconds + by_ns
+    return data[:4] + struct.pack(order + "iI", stamp // 10**9, stamp % 10**9) + data[12:]
+
+
 def main():
     parse = argparse.ArgumentParser()
     parse.add_argument("file")
@@ -43,6 +55,7 @@ def main():
     parse.add_argument("--repeat", type=int, default=1)
     parse.add_argument("--rate", type=float, default=1.0)
     parse.add_argument("--linger", type=float, default=2.0)
+    parse.add_argument("--stamp-now", action="store_true")
     arguments = parse.parse_args()
 
     participant = DomainParticipant(arguments.domain)
@@ -57,7 +70,7 @@ def main():
                 writers[channel.topic] = DataWriter(participant, topic, qos=qos)
         # Whoever listens already has found them by then.
         time.sleep(2.0)
-        start = time.monotonic()
+        start, began_ns = time.monotonic(), time.time_ns()
         shift = 0.0
         for turn in range(arguments.repeat):
             first = last = None
@@ -74,7 +87,10 @@ def main():
                 if wait > 0:
                     time.sleep(wait)
                 late = max(late, -wait)
-                data = message.data.ljust((len(message.data) + 3) & ~3, b"\0")
+                data = message.data
+                if arguments.stamp_now and schema.name in STAMPED:
+                    data = later(data, began_ns - int(1e9 * first) + int(1e9 * shift))
+                data = data.ljust((len(data) + 3) & ~3, b"\0")
                 written = ddspy_write(writers[channel.topic]._ref, data)
                 assert written >= 0, written
                 if not counts:

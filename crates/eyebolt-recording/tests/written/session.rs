@@ -93,7 +93,13 @@ fn a_session_that_was_killed_is_read_to_its_end_and_other_files_are_not() {
     // A file of others may have lost anything.
     let recorded = fs::read(desk.file("recorded.mcap")).unwrap();
     let other = desk.file("other.mcap");
-    fs::write(&other, &recorded[..recorded.len() / 2]).unwrap();
+    // Within the chunk that has its messages.
+    let mut chunk = 8;
+    while recorded[chunk] != mcap::records::op::CHUNK {
+        chunk +=
+            9 + u64::from_le_bytes(recorded[chunk + 1..chunk + 9].try_into().unwrap()) as usize;
+    }
+    fs::write(&other, &recorded[..chunk + 20]).unwrap();
     assert_says(BagRecording::open(&other, &BagOptions::default()), &["mcap recover", "`partial`"]);
 }
 

@@ -12,6 +12,7 @@ use crate::progress::Interrupt;
 use anyhow::Result;
 use eyebolt_live::{Assessment, Bus, Event, Goal, Incoming, Outgoing, Session, pose_markers};
 use eyebolt_recording::text_message;
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 /// Why a session ended.
@@ -24,7 +25,7 @@ pub enum Ended {
 }
 
 /// The session as it goes on.
-pub struct Show<'a> {
+pub struct Listening<'a> {
     arguments: &'a Arguments,
     bus: &'a Bus,
     recorder: Recorder,
@@ -36,6 +37,9 @@ pub struct Show<'a> {
     /// Whether it was said that all is there.
     ready: bool,
     told: Instant,
+    restarts: u64,
+    /// How many lost messages were told, by topic.
+    lost: BTreeMap<String, u64>,
 }
 
 /// How long a message is waited for.
@@ -44,7 +48,7 @@ const WAIT: Duration = Duration::from_millis(50);
 const STATUS: Duration = Duration::from_secs(1);
 const REMINDER: u32 = 10;
 
-impl<'a> Show<'a> {
+impl<'a> Listening<'a> {
     pub fn new(
         arguments: &'a Arguments,
         bus: &'a Bus,
@@ -53,7 +57,7 @@ impl<'a> Show<'a> {
     ) -> Result<Self> {
         let session = Session::new(arguments.goal, arguments.robot.notes());
         let (goal, told) = (arguments.goal, Instant::now());
-        let mut show = Self {
+        let mut listening = Self {
             arguments,
             bus,
             recorder,
@@ -63,13 +67,29 @@ impl<'a> Show<'a> {
             base: None,
             ready: false,
             told,
+            restarts: 0,
+            lost: BTreeMap::new(),
         };
-        show.know_arm(None)?;
-        Ok(show)
+        listening.know_arm(None)?;
+        Ok(listening)
     }
 
     /// Goes on until the goal is met or somebody ends it.
     pub fn run(&mut self, keyboard: &Keyboard, interrupt: &Interrupt) -> Result<Ended> {
+        let ended = self.listen(keyboard, interrupt)?;
+        // What came before the end is part of it; what comes meanwhile is not.
+        let end_ns = now_ns();
+        let before = |message: &Incoming| message.received_ns <= end_ns;
+        while let Some(message) = self.bus.next(Duration::ZERO).filter(before) {
+            let events = self.session.hear(&message);
+            self.keep(&message, &events)?;
+            events.iter().filter_map(lines::event).for_each(|line| output::say(&line));
+        }
+        self.tell_lost();
+        Ok(ended)
+    }
+
+    fn listen(&mut self, keyboard: &Keyboard, interrupt: &Interrupt) -> Result<Ended> {
         let mut seconds = 0;
         loop {
             if interrupt.check().is_err() {
@@ -174,7 +194,25 @@ impl<'a> Show<'a> {
         Ok(())
     }
 
-    fn tell_status(&self) {
+    /// Says what got lost since it was said last.
+    fn tell_lost(&mut self) {
+        for (topic, total) in self.session.status().lost {
+            let told = self.lost.entry(topic.clone()).or_default();
+            if total > told {
+                output::say(&lines::lost(topic, total - *told, *total));
+                *told = *total;
+            }
+        }
+    }
+
+    fn tell_status(&mut self) {
+        self.tell_lost();
+        if self.bus.restarts() != self.restarts {
+            self.restarts = self.bus.restarts();
+            output::complain(
+                "the transport broke, over a malformed packet or a fault of its own, and was started again",
+            );
+        }
         if let Ok(json) = serde_json::to_string(&self.session.status()) {
             self.bus.publish(Outgoing::Status, text_message(&json));
         }
