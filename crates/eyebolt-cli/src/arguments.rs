@@ -1,5 +1,7 @@
 //! What the program can be told.
 
+#[cfg(feature = "live")]
+use crate::live;
 use crate::{
     batch, calibrate, completions, convert, demo, evaluate, export, info, init, label, man,
     monitor, plan, pose, record_command, reproduce, segment, simulate, study, train,
@@ -86,6 +88,13 @@ pub enum Command {
     /// An alarm says how far the arm is from where the calibration has it, and what moved, as far as that can be told. A
     /// new calibration is proposed, never applied. Exit status 3 with an alarm.
     Monitor(Box<monitor::Arguments>),
+    /// Calibrate while it happens: listen to a ROS 2 system, say when the arm may go on, end when it is good enough
+    ///
+    /// No ROS is needed on this machine. Move the arm from one place to another and let it rest in each: every new
+    /// configuration is taken by itself, or when you press Enter. What comes in is a recording from the first message on, so
+    /// that nothing is lost if the program is killed.
+    #[cfg(feature = "live")]
+    Live(Box<live::Arguments>),
     /// Say which configurations to record next: those that tell most of where the camera is
     ///
     /// Each is within the joints' limits, in view, free of the arm itself, the table and what the camera saw, and so is the

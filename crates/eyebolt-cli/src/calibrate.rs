@@ -42,7 +42,7 @@ pub struct Arguments {
     #[arg(long)]
     no_masks: bool,
     /// Of more configurations, use those that differ most
-    #[arg(long, value_name = "COUNT", default_value_t = 30, value_parser = clap::value_parser!(u16).range(3..))]
+    #[arg(long, value_name = "COUNT", default_value_t = MOST_CONFIGURATIONS, value_parser = clap::value_parser!(u16).range(3..))]
     max_configurations: u16,
     /// Draw the posed arm over each frame, as PNG files in this folder
     #[arg(long, value_name = "FOLDER")]
@@ -70,6 +70,38 @@ pub struct Arguments {
     #[command(flatten)]
     marker: marker::MarkerArguments,
 }
+
+impl Arguments {
+    /// Of a recording that this program made, everything that has no flag elsewhere by default.
+    #[cfg(feature = "live")]
+    pub(crate) fn of_session(
+        (recording, robot): (RecordingArguments, RobotArguments),
+        (output, report): (PathBuf, Option<PathBuf>),
+        (limits, cache): (LimitArguments, CacheArguments),
+        (seed, force): (u64, bool),
+    ) -> Self {
+        Self {
+            recording,
+            output,
+            robot,
+            learned: LearnedArguments::default(),
+            no_masks: false,
+            max_configurations: MOST_CONFIGURATIONS,
+            save_overlay: None,
+            report,
+            force,
+            limits,
+            seed,
+            threads: None,
+            timing: false,
+            cache,
+            marker: marker::MarkerArguments::default(),
+        }
+    }
+}
+
+/// Of more configurations, those that differ most are used.
+pub(crate) const MOST_CONFIGURATIONS: u16 = 30;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {

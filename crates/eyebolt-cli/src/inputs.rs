@@ -11,7 +11,7 @@ use eyebolt_robot::{Arm, Robot, RobotError};
 use std::path::{Path, PathBuf};
 
 /// Which recording, and how to read it.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct RecordingArguments {
     /// Folder with a recording.toml, or a bag: MCAP, rosbag2 (file or folder) or ROS 1
     pub recording: PathBuf,
@@ -22,7 +22,7 @@ pub struct RecordingArguments {
 const BAGS: &str = "Bags";
 
 /// How to read a bag.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct BagArguments {
     /// Depth images (16UC1, 32FC1, compressedDepth) or clouds, where several topics have them
     #[arg(long, help_heading = BAGS, value_name = "TOPIC")]
@@ -89,6 +89,19 @@ fn depth_unit(text: &str) -> Result<DepthUnit, String> {
 }
 
 impl BagArguments {
+    /// The topics that are named, for those who listen to them.
+    #[cfg(feature = "live")]
+    pub fn topics(&self) -> eyebolt_live::TopicChoice {
+        let pictures = [&self.color_topic, &self.mask_topic, &self.background_topic];
+        eyebolt_live::TopicChoice {
+            depth: self.depth_topic.clone(),
+            camera_info: self.camera_info_topic.clone(),
+            joints: self.joint_topic.clone(),
+            description: self.description_topic.clone(),
+            pictures: pictures.into_iter().flatten().cloned().collect(),
+        }
+    }
+
     pub fn options(&self) -> BagOptions {
         BagOptions {
             depth_topic: self.depth_topic.clone(),
@@ -132,7 +145,7 @@ impl RecordingArguments {
 }
 
 /// Which robot.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct RobotArguments {
     /// Robot description (URDF or xacro), a robot that comes with the program, or one that is installed
     /// for ROS; otherwise the recording's
@@ -159,6 +172,26 @@ pub struct RobotArguments {
 }
 
 impl RobotArguments {
+    /// What the flags say of joints that messages do not.
+    pub fn notes(&self) -> JointNotes {
+        JointNotes { prefix: self.joint_prefix.clone(), positions: self.joint.clone() }
+    }
+
+    /// The arm that the flags name, if they name a robot, else that of `text`, if there is one.
+    #[cfg(feature = "live")]
+    pub fn arm_of_text(&self, text: Option<&str>) -> Result<Option<Arm>> {
+        let described = match (&self.robot, text) {
+            (Some(name), _) => self.description.named(name)?,
+            (None, Some(text)) => self.of_text(text)?,
+            (None, None) => return Ok(None),
+        };
+        let Described { robot, about, .. } = described;
+        let about = about.as_ref();
+        let base = self.base.as_ref().or(about.map(|about| &about.base));
+        let hand = self.end_effector.as_ref().or(about.map(|about| &about.end_effector));
+        Ok(Some(robot.arm(base.map(String::as_str), hand.map(String::as_str))?))
+    }
+
     /// The arm that the flags name, else the one of the recording at `path`.
     pub fn arm(&self, path: &Path, recording: &Recording) -> Result<Arm> {
         let Some(robot) = self.robot(recording)? else {
@@ -196,7 +229,7 @@ impl RobotArguments {
 
     /// `recording` with joints as the flags have them, which name joints of `arm`.
     pub fn noted<'r>(&self, recording: Recording<'r>, arm: &Arm) -> Result<Recording<'r>> {
-        let notes = JointNotes { prefix: self.joint_prefix.clone(), positions: self.joint.clone() };
+        let notes = self.notes();
         if notes.is_empty() {
             return Ok(recording);
         }
@@ -292,10 +325,14 @@ impl RobotArguments {
         if let Some(described) = self.named(recording)? {
             return Ok(Some(described));
         }
-        let Some(text) = &recording.robot().description else { return Ok(None) };
+        recording.robot().description.as_ref().map(|text| self.of_text(text)).transpose()
+    }
+
+    /// The robot of a description that came with the data.
+    fn of_text(&self, text: &str) -> Result<Described> {
         let packages = self.description.packages().with_outside_files(self.allow_outside_files);
         let robot = Robot::from_urdf_str(text, None, &packages)?;
-        Ok(Some(Described { robot, text: text.clone(), about: None }))
+        Ok(Described { robot, text: text.to_owned(), about: None })
     }
 }
 
@@ -308,7 +345,7 @@ fn joint(text: &str) -> Result<(String, f64), String> {
 }
 
 /// Where shapes of links are kept between runs.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct CacheArguments {
     /// Where the shapes of links are kept between runs [default: eyebolt in the user's cache folder]
     #[arg(long, value_name = "FOLDER", conflicts_with = "no_cache")]

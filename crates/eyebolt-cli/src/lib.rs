@@ -18,6 +18,8 @@ mod info;
 mod init;
 mod inputs;
 mod label;
+#[cfg(feature = "live")]
+mod live;
 mod logging;
 mod man;
 mod monitor;
@@ -86,6 +88,8 @@ fn run(arguments: Arguments, matches: &ArgMatches, started_by: &[OsString]) -> u
         Command::Pose(arguments) => pose::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        #[cfg(feature = "live")]
+        Command::Live(arguments) => live::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),

@@ -7,5 +7,5 @@ mod waiting;
 
 pub use bar::Bar;
 pub use counting::Counting;
-pub use interrupt::leaves;
+pub use interrupt::{Interrupt, leaves};
 pub use waiting::Waiting;

@@ -9,7 +9,7 @@ use eyebolt_robot::{Arm, Description, PackageRoots, Robot, XacroArguments};
 use std::path::Path;
 
 /// How descriptions are read.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct DescriptionArguments {
     /// Where package:// leads: a folder of packages, or NAME=FOLDER; may be repeated.
     /// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH are searched too

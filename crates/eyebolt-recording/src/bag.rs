@@ -12,6 +12,7 @@ mod open;
 mod remedy;
 mod ros1;
 mod sqlite;
+mod tail;
 #[cfg(test)]
 mod tests;
 mod topic;
@@ -26,4 +27,5 @@ pub(crate) use locator::Locator;
 use message::Location;
 pub(crate) use message::Message;
 pub(crate) use open::Bag;
-pub(crate) use topic::{Encoding, Topic};
+pub(crate) use tail::McapTail;
+pub(crate) use topic::{Encoding, Topic, ros_type};

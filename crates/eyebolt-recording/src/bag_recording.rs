@@ -15,6 +15,8 @@ mod color_view;
 mod copy_source;
 mod frame_reader;
 mod frames;
+mod growing;
+mod growing_scan;
 mod known;
 mod options;
 mod pair;
@@ -27,6 +29,7 @@ mod topics;
 mod track;
 
 pub(crate) use copy_source::CopySource;
+pub use growing::GrowingRecording;
 pub use options::BagOptions;
 pub use recording::BagRecording;
 pub use topics::{list_topics, static_transforms};

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// What is wrong with a frame that saw nothing.
 const NO_DEPTH: &str = "no pixel has depth";
 
+/// What is wrong with a file that ends before it should.
+const ENDS_EARLY: &str = "the file ends in the middle of it, as when a recorder is killed";
+
 /// Why a recording, or a frame of it, cannot be read. The text names file, field and remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -36,6 +39,16 @@ pub enum RecordingError {
         remedy: String,
         /// The input that says so, if it is not the file's own content. Then `field` is its name.
         input: Option<Input>,
+    },
+    /// The file ends within a record.
+    #[error("{path}: record at byte {at}: {ENDS_EARLY}. {remedy}", path = path.display())]
+    CutShort {
+        /// The file.
+        path: PathBuf,
+        /// Where the record starts that is not whole.
+        at: u64,
+        /// What to do about it.
+        remedy: String,
     },
     /// A frame saw nothing.
     #[error("{path}: {field}: {NO_DEPTH}. Record it again, or leave it out", path = path.display())]
@@ -114,6 +127,7 @@ impl RecordingError {
         match self {
             Self::Invalid { problem, .. } => problem.clone(),
             Self::Read { cause, .. } => cause.to_string(),
+            Self::CutShort { .. } => ENDS_EARLY.to_owned(),
             Self::EmptyFrame { .. } => NO_DEPTH.to_owned(),
             Self::NoSuchFrame { .. } | Self::NoSuchBackground { .. } => self.to_string(),
         }
@@ -124,6 +138,7 @@ impl RecordingError {
         match &mut self {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
+            | Self::CutShort { path, .. }
             | Self::EmptyFrame { path, .. }
             | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => *path = told.to_path_buf(),
@@ -136,6 +151,7 @@ impl RecordingError {
         match self {
             Self::Read { path, .. }
             | Self::Invalid { path, .. }
+            | Self::CutShort { path, .. }
             | Self::EmptyFrame { path, .. }
             | Self::NoSuchBackground { path, .. }
             | Self::NoSuchFrame { path, .. } => path,
@@ -147,6 +163,7 @@ impl RecordingError {
         match self {
             Self::Invalid { input, .. } => *input,
             Self::Read { .. }
+            | Self::CutShort { .. }
             | Self::EmptyFrame { .. }
             | Self::NoSuchBackground { .. }
             | Self::NoSuchFrame { .. } => None,

@@ -58,6 +58,7 @@ mod frame_source;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
+mod glimpse;
 mod in_memory;
 mod joint_names;
 mod joints;
@@ -79,7 +80,9 @@ mod words;
 mod write;
 
 pub use bag::{BagKind, is_bag};
-pub use bag_recording::{BagOptions, BagRecording, list_topics, static_transforms};
+pub use bag_recording::{
+    BagOptions, BagRecording, GrowingRecording, list_topics, static_transforms,
+};
 pub use camera_info::CameraInfo;
 pub use color::{CameraPicture, ColorImage};
 pub use depth_unit::DepthUnit;
@@ -88,10 +91,14 @@ pub use error::RecordingError;
 pub use folder::Folder;
 pub use frame::{Frame, Range};
 pub use frame_source::FrameSource;
+pub use glimpse::{Glimpse, glimpse};
 pub use in_memory::{BorrowedFrame, BorrowedFrames, InMemory, Make, depth_from_millimetres};
 pub use joint_names::{JointNotes, NotedJoints};
 pub use manifest::{CloudFrame, RobotSection};
-pub use message::StaticTransform;
+pub use message::{
+    Marker, MarkerShape, StaticTransform, markers_message, text_message,
+    write_transforms as static_transforms_message,
+};
 pub use npy::{Dtype, Npy, Number};
 pub use progress::{Cancelled, Progress};
 pub use provenance::{
@@ -102,6 +109,6 @@ pub use tf_file::parse_static_transforms;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use words::counted;
 pub use write::{
-    McapWriter, RecordingInfo, RecordingWriter, WriteError, WriteRobot, write_folder, write_mcap,
-    write_npy, write_static_transforms,
+    McapWriter, RecordingInfo, RecordingWriter, SessionWriter, WriteError, WriteRobot,
+    write_folder, write_mcap, write_npy, write_static_transforms,
 };

@@ -11,6 +11,7 @@ mod npy;
 mod png;
 mod recording_writer;
 mod robot;
+mod session;
 
 pub use error::WriteError;
 pub use folder::write_folder;
@@ -18,6 +19,7 @@ pub use mcap::{McapWriter, write_static_transforms};
 pub use npy::write_npy;
 pub use recording_writer::{RecordingInfo, RecordingWriter};
 pub use robot::WriteRobot;
+pub use session::SessionWriter;
 
 use crate::own_metadata;
 use crate::progress::Progress;

@@ -15,8 +15,10 @@ mod verdict;
 
 pub use calibration::Calibration;
 pub use deviation::Deviation;
+pub use error::covariance_at;
+pub(crate) use error::expected as expected_of;
+pub(crate) use error::expected_at;
 pub use error::{ErrorEstimate, ErrorPart, ErrorSource};
-pub(crate) use error::{covariance_at, expected as expected_of, expected_at};
 pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;

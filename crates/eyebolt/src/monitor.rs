@@ -17,6 +17,6 @@ pub use belief::{Belief, Quadratic};
 pub use detector::{Beliefs, Detector, Rate};
 pub use known::Known;
 pub use moved::{Moved, Suspect};
-pub use recording::{Watched, watch};
+pub use recording::{Watched, look, watch};
 pub use report::{Drift, ViewReport, WhyNot};
 pub use watch::Monitor;

@@ -12,7 +12,7 @@ use eyebolt_registration::Start;
 use std::path::{Path, PathBuf};
 
 /// Options of networks.
-#[derive(Debug, clap::Args)]
+#[derive(Default, Debug, clap::Args)]
 pub struct LearnedArguments {
     /// Folder of a model that eyebolt train made, such as models/panda or models/any-arm: networks tell the arm's
     /// pixels, whatever else moves, and where its end-effector is
@@ -30,9 +30,10 @@ pub struct LearnedArguments {
 }
 
 /// How to calibrate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Method {
     /// With a model by what its networks tell, refined on all that is seen of the arm; else from nothing
+    #[default]
     Best,
     /// From nothing, even with a model
     Nothing,
@@ -41,9 +42,10 @@ pub enum Method {
 }
 
 /// Who tells which pixels are the end-effector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum LabelsFrom {
     /// The networks
+    #[default]
     Predicted,
     /// The truth of a recording that eyebolt simulate made
     True,

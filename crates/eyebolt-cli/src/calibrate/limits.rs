@@ -4,7 +4,7 @@ use crate::inputs::positive;
 use eyebolt::calibrate::{Deviation, Limits};
 
 /// Up to which error an answer is trusted.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct LimitArguments {
     /// Expected error up to which an answer is trusted, millimetres [default: 10]
     #[arg(long, value_name = "MM", value_parser = positive)]

@@ -23,7 +23,7 @@ use std::path::Path;
 const MARKERS: &str = "Markers";
 
 /// How a marker is asked for.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Default, clap::Args)]
 pub struct MarkerArguments {
     /// Calibrate by a marker in the colour pictures, then by the arm's own shape from there on. One of
     /// aruco:DICTIONARY:SIZE_M[:ID] (aruco:4x4_50:0.05), apriltag:FAMILY:SIZE_M[:ID] (apriltag:36h11:0.08),

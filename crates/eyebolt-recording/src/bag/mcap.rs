@@ -20,6 +20,7 @@ use crate::error::RecordingError;
 use chunk::Unpacker;
 use fault::{cut_short, damaged};
 use framing::{Damage, FRAMING, RecordHead, Records};
+use records::Topics;
 use std::collections::BTreeMap;
 use std::io::Read;
 use summary::summarised;
@@ -29,6 +30,14 @@ use summary::summarised;
 pub(crate) struct McapFile {
     bytes: Bytes,
     cache: ChunkCache,
+}
+
+/// How far a file that is still being written was read.
+#[derive(Debug, Default)]
+pub(super) struct Reached {
+    topics: Topics,
+    /// Where the first record starts that was not whole; 0 before anything was read.
+    at: u64,
 }
 
 const CHANGED: &str = "the chunk has changed since the scan";
@@ -46,41 +55,9 @@ impl BagFile for McapFile {
         each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
         damage: &mut Damage<'_>,
     ) -> Result<(), RecordingError> {
-        use mcap::records::op::{CHANNEL, CHUNK, MESSAGE, SCHEMA};
+        let records = Records::all(&self.bytes)?;
         let mut topics = summarised(&self.bytes);
-        let mut unpacker = Unpacker::default();
-        let damage = std::cell::RefCell::new(damage);
-        let mut visit = |head: RecordHead, body: &[u8]| {
-            let damaged = |problem: String| damaged(&self.bytes, head.at, problem);
-            if head.opcode != CHUNK {
-                let in_body =
-                    |start, length| Location::Bytes { start: head.at + FRAMING + start, length };
-                let visited = topics.record(head.opcode, body, &in_body, each, &damaged);
-                return records::or_damage(visited, *damage.borrow_mut());
-            }
-            let unpacked = unpacker.unpack(body).map_err(damaged);
-            let records = match unpacked {
-                Ok(records) => records,
-                Err(error) => return (*damage.borrow_mut())(error),
-            };
-            for record in chunk::records(records) {
-                let visited = match record {
-                    Ok((opcode, start, body)) => {
-                        let place = |behind: u64, length| Location::InChunk {
-                            chunk: head.at,
-                            start: start + behind as u32,
-                            length,
-                        };
-                        topics.record(opcode, body, &place, each, &damaged)
-                    }
-                    Err(problem) => Err(records::Stop::Damage(damaged(problem))),
-                };
-                records::or_damage(visited, *damage.borrow_mut())?;
-            }
-            Ok(())
-        };
-        let mut outer = |error| (*damage.borrow_mut())(error);
-        Records::all(&self.bytes)?.visit(&[SCHEMA, CHANNEL, MESSAGE, CHUNK], &mut visit, &mut outer)
+        self.scan_records(records, &mut topics, each, damage).map(drop)
     }
 
     /// The metadata record called `name`, the last one where there are several.
@@ -120,6 +97,71 @@ impl BagFile for McapFile {
 }
 
 impl McapFile {
+    /// As [`BagFile::scan`], of what is whole by now behind what was `reached`.
+    pub(super) fn scan_on(
+        &self,
+        reached: &mut Reached,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+    ) -> Result<(), RecordingError> {
+        let records = match reached.at {
+            0 => Records::all(&self.bytes)?,
+            at => Records::from(&self.bytes, at),
+        };
+        let mut unless_unfinished = |error| match error {
+            RecordingError::CutShort { .. } => Ok(()),
+            error => Err(error),
+        };
+        let topics = &mut reached.topics;
+        reached.at = self.scan_records(records, topics, each, &mut unless_unfinished)?;
+        Ok(())
+    }
+
+    /// As [`BagFile::scan`], of `records`, with `topics` met before them; where the first record starts that is
+    /// not whole, or where there are no more.
+    fn scan_records(
+        &self,
+        mut records: Records<'_>,
+        topics: &mut Topics,
+        each: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
+        damage: &mut Damage<'_>,
+    ) -> Result<u64, RecordingError> {
+        use mcap::records::op::{CHANNEL, CHUNK, MESSAGE, SCHEMA};
+        let mut unpacker = Unpacker::default();
+        let damage = std::cell::RefCell::new(damage);
+        let mut visit = |head: RecordHead, body: &[u8]| {
+            let damaged = |problem: String| damaged(&self.bytes, head.at, problem);
+            if head.opcode != CHUNK {
+                let in_body =
+                    |start, length| Location::Bytes { start: head.at + FRAMING + start, length };
+                let visited = topics.record(head.opcode, body, &in_body, each, &damaged);
+                return records::or_damage(visited, *damage.borrow_mut());
+            }
+            let unpacked = unpacker.unpack(body).map_err(damaged);
+            let records = match unpacked {
+                Ok(records) => records,
+                Err(error) => return (*damage.borrow_mut())(error),
+            };
+            for record in chunk::records(records) {
+                let visited = match record {
+                    Ok((opcode, start, body)) => {
+                        let place = |behind: u64, length| Location::InChunk {
+                            chunk: head.at,
+                            start: start + behind as u32,
+                            length,
+                        };
+                        topics.record(opcode, body, &place, each, &damaged)
+                    }
+                    Err(problem) => Err(records::Stop::Damage(damaged(problem))),
+                };
+                records::or_damage(visited, *damage.borrow_mut())?;
+            }
+            Ok(())
+        };
+        let mut outer = |error| (*damage.borrow_mut())(error);
+        records.visit(&[SCHEMA, CHANNEL, MESSAGE, CHUNK], &mut visit, &mut outer)?;
+        Ok(records.at())
+    }
+
     /// The records of the chunk at byte `at`.
     fn unpacked(&self, at: u64) -> Result<Vec<u8>, RecordingError> {
         let mut records = Records::from(&self.bytes, at);

@@ -84,6 +84,16 @@ impl BagRecording {
 
     fn of_bag(path: &Path, bag: Bag, options: &BagOptions) -> Result<Self, RecordingError> {
         let scan = Scan::new(&bag, options.partial)?;
+        Self::of_scan(path, bag, scan, options)
+    }
+
+    /// The recording that is in `bag`, of which `scan` is.
+    pub(super) fn of_scan(
+        path: &Path,
+        bag: Bag,
+        scan: Scan,
+        options: &BagOptions,
+    ) -> Result<Self, RecordingError> {
         let known = Known::new(bag.metadata());
         let chosen = Chosen::new(path, &scan, options, known.background())?;
         check_topics(path, &scan, &chosen, options.partial)?;

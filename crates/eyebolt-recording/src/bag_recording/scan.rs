@@ -10,6 +10,7 @@ pub(super) use topic::{Content, TopicScan, is_static};
 use crate::bag::{Bag, Locator, Message, Topic};
 use crate::error::RecordingError;
 use crate::message::StaticTransform;
+use crate::own_metadata::is_session;
 use std::collections::BTreeMap;
 
 /// What a scan found.
@@ -21,6 +22,27 @@ pub(super) struct Scan {
     pub(super) damage: Vec<RecordingError>,
 }
 
+/// Numbers of the topics, which several files may share.
+#[derive(Debug, Default)]
+pub(super) struct Numbers {
+    /// By file and number in it.
+    known: BTreeMap<(u32, usize), usize>,
+    topics: BTreeMap<Topic, usize>,
+}
+
+impl Numbers {
+    /// The number of the topic of `message` in `scan`, where it is added if it is new.
+    pub(super) fn of(&mut self, scan: &mut Scan, locator: Locator, message: &Message<'_>) -> usize {
+        let key = (locator.file(), message.topic_index);
+        *self.known.entry(key).or_insert_with(|| {
+            *self.topics.entry(message.topic.clone()).or_insert_with(|| {
+                scan.topics.push(TopicScan::new(message));
+                scan.topics.len() - 1
+            })
+        })
+    }
+}
+
 /// Static transforms kept.
 const MOST_TRANSFORMS: usize = 10_000;
 
@@ -29,28 +51,25 @@ impl Scan {
     pub(super) fn new(bag: &Bag, partial: bool) -> Result<Self, RecordingError> {
         let mut scan = Self::default();
         let mut damage = Vec::new();
-        let mut numbers: BTreeMap<(u32, usize), usize> = BTreeMap::new();
-        let mut topics: BTreeMap<Topic, usize> = BTreeMap::new();
+        let mut numbers = Numbers::default();
+        // A session that was killed while it was recorded is whole up to there.
+        let may_end_early = is_session(bag.metadata());
         bag.scan(
             &mut |locator, message| {
-                let key = (locator.file(), message.topic_index);
-                // The topic may be known of another file.
-                let number = *numbers.entry(key).or_insert_with(|| {
-                    *topics.entry(message.topic.clone()).or_insert_with(|| {
-                        scan.topics.push(TopicScan::new(message));
-                        scan.topics.len() - 1
-                    })
-                });
+                let number = numbers.of(&mut scan, locator, message);
                 scan.add(number, locator, message);
                 Ok(())
             },
             &mut |error| {
-                // One damaged chunk is told like a thousand.
-                if partial && damage.len() < MOST_DAMAGE {
-                    damage.push(error);
-                    return Ok(());
+                let early = matches!(error, RecordingError::CutShort { .. }) && may_end_early;
+                if !partial && !early {
+                    return Err(error);
                 }
-                if partial { Ok(()) } else { Err(error) }
+                // One damaged chunk is told like a thousand.
+                if damage.len() < MOST_DAMAGE {
+                    damage.push(error);
+                }
+                Ok(())
             },
         )?;
         scan.damage = damage;
@@ -67,7 +86,7 @@ impl Scan {
         self.topics.get(number).expect("chosen topics are of the scan")
     }
 
-    fn add(&mut self, number: usize, locator: Locator, message: &Message<'_>) {
+    pub(super) fn add(&mut self, number: usize, locator: Locator, message: &Message<'_>) {
         let Some(topic) = self.topics.get_mut(number) else { return };
         topic.count += 1;
         topic.bytes += message.data.len() as u64;
@@ -97,7 +116,7 @@ impl Scan {
         }
     }
 
-    fn finish(&mut self) {
+    pub(super) fn finish(&mut self) {
         self.topics.sort_by(|a, b| a.name.cmp(&b.name));
         self.topics.iter_mut().for_each(TopicScan::finish);
     }

@@ -37,8 +37,8 @@ pub(crate) fn transforms(reader: &mut WireReader<'_>) -> Result<Vec<StaticTransf
     (0..count).map(|_| read()).collect()
 }
 
-/// A message of `transforms`, all of one time.
-pub(crate) fn write_transforms(transforms: &[StaticTransform], stamp_ns: i64) -> Vec<u8> {
+/// `transforms` as a `tf2_msgs/TFMessage` in CDR, all of one time.
+pub fn write_transforms(transforms: &[StaticTransform], stamp_ns: i64) -> Vec<u8> {
     let mut writer = WireWriter::new();
     writer.count(transforms.len());
     for transform in transforms {

@@ -43,6 +43,10 @@ impl WireWriter {
         self.number(value.to_le_bytes());
     }
 
+    pub(crate) fn f32(&mut self, value: f32) {
+        self.number(value.to_le_bytes());
+    }
+
     pub(crate) fn f64(&mut self, value: f64) {
         self.number(value.to_le_bytes());
     }

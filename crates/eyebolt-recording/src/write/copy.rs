@@ -2,7 +2,6 @@
 
 use super::error::WriteError;
 use super::mcap::McapWriter;
-use super::messages;
 use super::recording_writer::DESCRIPTION;
 use super::robot::WriteRobot;
 use crate::bag::{Encoding, Message};
@@ -11,7 +10,7 @@ use crate::camera_info::camera_info_message;
 use crate::error::RecordingError;
 use crate::message::{
     CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
-    JointStateMessage, WireProblem, WireReader, WireWriter, text, transforms, types,
+    JointStateMessage, WireProblem, WireReader, text, text_message, transforms, types,
     write_transforms,
 };
 use crate::progress::Progress;
@@ -79,7 +78,7 @@ impl Extra<'_> {
         }
         let time_ns = message.log_time_ns;
         if let Some(urdf) = self.urdf {
-            writer.write(DESCRIPTION, types::STRING, time_ns, &messages::description(urdf))?;
+            writer.write(DESCRIPTION, types::STRING, time_ns, &text_message(urdf))?;
         }
         if let Some((camera, topic)) = self.bag.given_camera() {
             let frame_id = self.bag.camera_frame_id().unwrap_or_default();
@@ -128,11 +127,7 @@ fn in_cdr<'a>(message: &Message<'a>) -> Result<Cow<'a, [u8]>, WireProblem> {
         types::CLOUD => CloudMessage::read(reader)?.write(),
         types::CAMERA_INFO => CameraInfoMessage::read(reader)?.write(),
         types::JOINT_STATE => JointStateMessage::read(reader)?.write(),
-        types::STRING => {
-            let mut writer = WireWriter::new();
-            writer.string(text(reader)?);
-            writer.finish()
-        }
+        types::STRING => text_message(text(reader)?),
         _ => write_transforms(&transforms(reader)?, message.log_time_ns),
     }))
 }

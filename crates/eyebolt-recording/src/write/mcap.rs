@@ -31,8 +31,17 @@ impl<W: Write + Seek> McapWriter<W> {
     ///
     /// A failing `output`.
     pub fn new(output: W) -> Result<Self, WriteError> {
+        Self::with(output, WriteOptions::new())
+    }
+
+    /// As [`Self::new`], of which a chunk stays in memory until it is whole.
+    pub(super) fn in_order(output: W) -> Result<Self, WriteError> {
+        Self::with(output, WriteOptions::new().disable_seeking(true))
+    }
+
+    fn with(output: W, options: WriteOptions) -> Result<Self, WriteError> {
         // One thread: the same bytes on every machine.
-        let options = WriteOptions::new()
+        let options = options
             .compression(Some(Compression::Zstd))
             .compression_threads(0)
             .chunk_size(Some(CHUNK))
@@ -87,6 +96,11 @@ impl<W: Write + Seek> McapWriter<W> {
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), profile.to_owned())]);
         let channel = self.writer.add_channel(schema, topic, "cdr", &metadata).map_err(failed)?;
         Ok(Some((channel, 0)))
+    }
+
+    /// Ends the chunk, and hands it to the output.
+    pub(super) fn flush(&mut self) -> Result<(), WriteError> {
+        self.writer.flush().map_err(failed)
     }
 
     /// Writes what is left, and the index.

@@ -1,17 +1,9 @@
 //! What a recording is made of, as messages.
 
 use crate::color::ColorImage;
-use crate::message::{
-    CloudMessage, Header, ImageMessage, JointStateMessage, PointField, WireWriter,
-};
+use crate::message::{CloudMessage, Header, ImageMessage, JointStateMessage, PointField};
 use eyebolt_geometry::{Cloud, DepthImage, Mask};
 use eyebolt_robot::JointPositions;
-
-pub(super) fn description(urdf: &str) -> Vec<u8> {
-    let mut message = WireWriter::new();
-    message.string(urdf);
-    message.finish()
-}
 
 pub(super) fn joints(joints: &JointPositions, stamp_ns: i64) -> Vec<u8> {
     let (names, positions) = joints.iter().unzip();

@@ -6,7 +6,7 @@ use super::mcap::McapWriter;
 use super::messages;
 use crate::camera_info::camera_info_message;
 use crate::color::ColorImage;
-use crate::message::{Header, StaticTransform, types, write_transforms};
+use crate::message::{Header, StaticTransform, text_message, types, write_transforms};
 use crate::own_metadata::{self, BACKGROUND_TOPIC, SCHEMA};
 use crate::truth::{self, Truth};
 use eyebolt_geometry::{Cloud, DepthImage, Mask, PinholeCamera};
@@ -269,7 +269,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
             self.writer.metadata(own_metadata::NAME, &self.metadata)?;
             // At the first moment of the recording: whoever plays it need not wait for the next.
             if let Some(urdf) = &self.urdf {
-                let data = messages::description(urdf);
+                let data = text_message(urdf);
                 self.writer.write(DESCRIPTION, types::STRING, stamp_ns, &data)?;
             }
             if !self.static_transforms.is_empty() {

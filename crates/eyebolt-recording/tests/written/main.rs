@@ -3,6 +3,7 @@
 mod description;
 mod round_trip;
 mod sample;
+mod session;
 mod streaming;
 mod truth;
 mod truth_errors;

@@ -283,7 +283,7 @@ pub(crate) fn expected(
 
 /// Covariance of where a point of the base is, by the `covariance` of its `pose`, both along the camera's
 /// axes.
-pub(crate) fn covariance_at(
+pub fn covariance_at(
     covariance: &Matrix6<f64>,
     pose: &Transform<Camera, Base>,
     at_in_base: &Point3<f64>,

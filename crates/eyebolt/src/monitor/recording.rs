@@ -37,9 +37,23 @@ pub fn watch<E: From<RecordError>>(
     rate: &Rate,
     mut each: impl FnMut(ViewReport) -> Result<(), E>,
 ) -> Result<bool, E> {
+    let mut monitor = Monitor::new(watched.arm, watched.observations, known, rate);
+    look(watched, &mut monitor, &mut each)?;
+    Ok(monitor.alarms())
+}
+
+/// As [`watch`], by a `monitor` of the same arm and observations that may have seen other sources before.
+///
+/// # Errors
+///
+/// As of [`watch`].
+pub fn look<E: From<RecordError>>(
+    watched: &Watched<'_>,
+    monitor: &mut Monitor<'_>,
+    mut each: impl FnMut(ViewReport) -> Result<(), E>,
+) -> Result<(), E> {
     let Watched { source, arm, observations, options, per_rest } = *watched;
     let frames = SingleFrames::new(source, observations, options);
-    let mut monitor = Monitor::new(arm, observations, known, rate);
     for rest in rests(source, arm)? {
         for index in evenly(&rest, per_rest) {
             let seen = match frames.read(index) {
@@ -52,7 +66,7 @@ pub fn watch<E: From<RecordError>>(
             each(report.map_err(failed)?)?;
         }
     }
-    Ok(monitor.alarms())
+    Ok(())
 }
 
 /// Frames one after the other with the arm in one place, in order of time.

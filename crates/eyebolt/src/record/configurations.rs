@@ -2,6 +2,7 @@
 
 use super::error::RecordError;
 use super::options::MOST_CONFIGURATIONS;
+use super::places::same_place;
 use eyebolt_geometry::{Base, EndEffector, Transform};
 use eyebolt_recording::FrameSource;
 use eyebolt_robot::{Arm, JointPositions, KinematicsError, LinkPoses};
@@ -93,24 +94,5 @@ fn place(arm: &Arm, joints: &JointPositions) -> Result<Placement, KinematicsErro
         base_from_end_effector: arm.base_from_end_effector(joints)?,
         unplaced_joints: poses.unplaced_joints,
         joints: joints.clone(),
-    })
-}
-
-/// Frames whose links are this near to each other show the same configuration: more than encoders
-/// at rest make of it, less than anyone moves an arm on purpose.
-const SAME_M: f64 = 5e-3;
-const SAME_RAD: f64 = 1e-2;
-
-/// Whether two frames have the arm in the same place; both are of the same robot.
-///
-/// The links decide, not the joints: a recording may hold joints of other things.
-fn same_place(a: &LinkPoses, b: &LinkPoses) -> bool {
-    a.iter().zip(b).all(|pair| match pair {
-        (Some(a), Some(b)) => {
-            let (metres, radians) = a.distance_to(b);
-            metres <= SAME_M && radians <= SAME_RAD
-        }
-        (None, None) => true,
-        _ => false,
     })
 }

@@ -15,7 +15,6 @@ pub(super) fn damaged(bytes: &Bytes, at: u64, problem: impl Into<String>) -> Rec
 
 /// The file ends within the record at byte `at`.
 pub(super) fn cut_short(bytes: &Bytes, at: u64) -> RecordingError {
-    let problem = "the file ends in the middle of it, as when a recorder is killed";
     let remedy = or_partial("Repair it with `mcap recover`", "to use what is before");
-    RecordingError::invalid(bytes.path(), format!("record at byte {at}"), problem, remedy)
+    RecordingError::CutShort { path: bytes.path().to_path_buf(), at, remedy }
 }

@@ -96,9 +96,15 @@ impl<'b> Records<'b> {
         }
     }
 
-    /// Hands the records with one of `opcodes` before the summary to `visit`.
+    /// Where the next record starts.
+    pub(super) fn at(&self) -> u64 {
+        self.at
+    }
+
+    /// Hands the records with one of `opcodes` before the summary to `visit`. At the end, [`Self::at`] is
+    /// where the first record starts that is not whole, if there is one.
     pub(super) fn visit(
-        mut self,
+        &mut self,
         opcodes: &[u8],
         visit: &mut Visit<'_>,
         damage: &mut Damage<'_>,

@@ -28,7 +28,7 @@ pub(super) fn or_damage(
 }
 
 /// Schemas and channels met so far.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Topics {
     met: Numbers,
     /// From the summary, for messages whose channel stood in a chunk that is damaged.
@@ -39,7 +39,7 @@ pub(super) struct Topics {
 }
 
 /// What numbers mean in one part of the file.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Numbers {
     /// Message types.
     schemas: BTreeMap<u16, String>,

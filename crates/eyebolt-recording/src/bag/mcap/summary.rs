@@ -21,7 +21,8 @@ pub(super) fn summarised(bytes: &Bytes) -> Topics {
         Ok(())
     };
     // Only a help: the file is read without.
-    drop(Records::from(bytes, start).visit(&[SCHEMA, CHANNEL], &mut visit, &mut Err));
+    let mut records = Records::from(bytes, start);
+    drop(records.visit(&[SCHEMA, CHANNEL], &mut visit, &mut Err));
     topics
 }
 

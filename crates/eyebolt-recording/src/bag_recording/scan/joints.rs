@@ -9,7 +9,7 @@ use untold::Why;
 
 /// Positions of the joints of one topic: one track for each set of names, for each publisher tells
 /// its own joints.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct JointTracks {
     tracks: Vec<Track>,
     untold: Untold,

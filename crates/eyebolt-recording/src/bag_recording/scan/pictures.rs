@@ -7,7 +7,7 @@ use crate::message::{
 };
 
 /// Pictures of one topic.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Pictures {
     pub(crate) kind: PictureKind,
     /// All, whether of use or not, in the order of the bag.

@@ -11,7 +11,7 @@ use crate::message::{
 };
 
 /// One topic.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct TopicScan {
     pub(crate) name: String,
     pub(crate) message_type: String,
@@ -30,7 +30,7 @@ pub(crate) struct TopicScan {
 }
 
 /// What the messages of a topic are to a recording.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Content {
     /// Pictures, depth or not.
     Pictures(Pictures),

@@ -4,7 +4,7 @@ use crate::words::counted;
 use std::collections::BTreeMap;
 
 /// How often each joint was named without a usable position, and why first.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Untold(BTreeMap<String, (u64, Why)>);
 
 /// Why a joint that is named has no usable position.

@@ -1,0 +1,5 @@
+//! Sessions from their first message to an answer.
+
+mod law;
+mod replay;
+mod simulated;
