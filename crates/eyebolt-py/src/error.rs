@@ -18,7 +18,7 @@ pub fn raised(py: Python<'_>, error: &CallError) -> PyErr {
 /// Says each of `notes` as a warning of whoever called the package.
 pub fn warn(py: Python<'_>, notes: &[String]) -> PyResult<()> {
     /// Above this module: the package, and its caller.
-    const CALLER: i32 = 3;
+    const CALLER: i32 = 2;
     notes.iter().try_for_each(|note| {
         let note = CString::new(note.replace('\0', " "))?;
         PyErr::warn(py, &PyUserWarning::type_object(py), &note, CALLER)
