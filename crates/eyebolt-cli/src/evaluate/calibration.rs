@@ -36,20 +36,19 @@ impl Line {
 
 /// How far `calibration`, called `name`, is from the truth of `session`.
 pub fn of(session: &Path, name: &str, calibration: &SavedCalibration) -> Result<Line> {
-    let (evaluations, trusted) = evaluations(session, name, calibration)?;
+    let (evaluations, trusted) = evaluations(&read_truth(session)?, name, calibration)?;
     Ok(Line::new(&evaluations, trusted))
 }
 
 /// Against each pose that the camera had; whether it is trusted.
 fn evaluations(
-    session: &Path,
+    truth: &Truth,
     name: &str,
     calibration: &SavedCalibration,
 ) -> Result<(Vec<Evaluation>, bool)> {
-    let truth = read_truth(session)?;
-    check_base(name, &truth, calibration)?;
+    check_base(name, truth, calibration)?;
     let evaluations = match calibration.base_from_camera(true) {
-        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), &truth),
+        Ok(base_from_camera) => evaluate(&base_from_camera.inverse(), truth),
         Err(ExportError::NoPose { .. }) => Vec::new(),
         Err(error) => return Err(error.into()),
     };
@@ -58,9 +57,11 @@ fn evaluations(
 
 /// Holds the calibration at `path` against the truth of `session`: a recording of `eyebolt simulate`, or its truth.json.
 pub fn run(session: &Path, path: &Path, json: bool) -> Result<Ending> {
+    // That a recording is no simulated one is better told before anything else.
+    let truth = read_truth(session)?;
     let calibration = SavedCalibration::read(path)?;
     let name = path.display().to_string();
-    let (evaluations, trusted) = evaluations(session, &name, &calibration)?;
+    let (evaluations, trusted) = evaluations(&truth, &name, &calibration)?;
     if json {
         let line = Line::new(&evaluations, trusted);
         output::deliver(format!("{}\n", serde_json::to_string(&line)?).as_bytes())?;

@@ -5,12 +5,14 @@ use crate::program::{CACHE, Ended, eyebolt, eyebolt_in};
 use std::fs;
 
 const README: &str = include_str!("../../../../README.md");
-const PAGES: [(&str, &str); 5] = [
+const PAGES: [(&str, &str); 7] = [
     ("README.md", README),
     ("docs/recordings.md", include_str!("../../../../docs/recordings.md")),
     ("docs/answer.md", include_str!("../../../../docs/answer.md")),
     ("docs/learning.md", include_str!("../../../../docs/learning.md")),
     ("docs/plan.md", include_str!("../../../../docs/plan.md")),
+    ("docs/live.md", include_str!("../../../../docs/live.md")),
+    ("docs/monitor.md", include_str!("../../../../docs/monitor.md")),
 ];
 
 /// What is typed in the indented blocks of a page: arguments of the program.

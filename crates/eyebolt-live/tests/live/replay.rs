@@ -78,6 +78,8 @@ fn run(heard: &[Incoming], path: &Path, goal: &str) -> Ran {
         }
     }
     writer.flush().unwrap();
+    // Dropped, it would write its index.
+    std::mem::forget(writer);
     Ran { taken, assessments, met, arm: arm.unwrap() }
 }
 
