@@ -78,7 +78,9 @@ impl Recognizer {
         if is_supported(&first) {
             return self.labelled_again(depth, camera, first, postures);
         }
-        for segmentation in self.segmenter.alternatives(depth, camera, ELSEWHERE)? {
+        for segmentation in
+            self.segmenter.alternatives(depth, camera, &first.segmentation, ELSEWHERE)?
+        {
             let other = self.posed(depth, camera, segmentation, postures)?;
             if other.answer.as_ref().is_some_and(|answer| answer.refusal.is_none()) {
                 return self.labelled_again(depth, camera, other, postures);

@@ -112,7 +112,7 @@ impl Segmenter {
         Ok(Segmentation::new(depth, label, whole))
     }
 
-    /// What else the labels may be: with the end-effector elsewhere on the arm, or on something else that looks like a
+    /// What else the labels may be than the `first`, which [`Self::segment`] has of the same image: with the end-effector elsewhere on the arm, or on something else that looks like a
     /// part of an arm, the likeliest first, `most` at most. None without a network that looks at it from near.
     ///
     /// # Errors
@@ -122,15 +122,16 @@ impl Segmenter {
         &mut self,
         depth: &DepthImage,
         camera: &PinholeCamera,
+        first: &Segmentation,
         most: usize,
     ) -> Result<Vec<Segmentation>, SegmentError> {
-        let (whole, table) = self.whole(depth, camera)?;
+        let (whole, table) = (&first.whole, self.rays_of(camera));
         let mut labelled = Vec::new();
         if let Some(net) = &mut self.end_effector {
-            let clusters = clusters_by_area(&whole, depth, &table, ARM_LINKAGE_M, is_arm);
+            let clusters = clusters_by_area(whole, depth, &table, ARM_LINKAGE_M, is_arm);
             let mut found = Vec::new();
             for (rank, cluster) in clusters.iter().take(CLUSTERS).enumerate() {
-                let places = net.found(depth, camera, &table, &only(cluster, &whole))?;
+                let places = net.found(depth, camera, &table, &only(cluster, whole))?;
                 // The first of all is what `segment` has.
                 found.extend(
                     places.into_iter().skip(usize::from(rank == 0)).map(|it| (cluster, it)),
@@ -138,7 +139,7 @@ impl Segmenter {
             }
             found.sort_by(|(_, a), (_, b)| b.area.total_cmp(&a.area));
             for (cluster, place) in found.into_iter().take(most) {
-                let mut label = only(cluster, &whole);
+                let mut label = only(cluster, whole);
                 label.iter_mut().filter(|label| is_hand(**label)).for_each(|label| *label = ARM);
                 net.paint(depth, camera, place, &mut label)?;
                 keep_largest_cluster(
@@ -156,6 +157,14 @@ impl Segmenter {
         Ok(labelled)
     }
 
+    /// The rays of `camera`: of the last one, if it is the same.
+    fn rays_of(&mut self, camera: &PinholeCamera) -> RayTable {
+        match self.rays.take() {
+            Some((of, table)) if of == *camera => table,
+            _ => RayTable::new(camera),
+        }
+    }
+
     /// Labels by the network of whole frames alone, and the rays of the camera.
     fn whole(
         &mut self,
@@ -167,10 +176,7 @@ impl Segmenter {
             return Err(SegmentError::Size { found, camera: size });
         }
         let (width, height) = (depth.width() as usize, depth.height() as usize);
-        let table = match self.rays.take() {
-            Some((of, table)) if of == *camera => table,
-            _ => RayTable::new(camera),
-        };
+        let table = self.rays_of(camera);
         let mut label = vec![UNKNOWN; width * height];
         let image = Thinned::new(depth, camera, self.grid.columns());
         let rows: Vec<usize> = image.seen().collect();
