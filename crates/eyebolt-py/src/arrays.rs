@@ -87,7 +87,7 @@ impl Arrays<'_> {
                 DepthUnit::parse(text).filter(|unit| !integers || *unit != DepthUnit::METRES);
             return known.ok_or_else(|| {
                 CallError::of_text(&format!(
-                    "--depth-unit: {text:?} cannot be the unit of this depth. Give mm, or the metres of one, as in \
+                    "`depth_unit`: {text:?} cannot be the unit of this depth. Give mm, or the metres of one, as in \
                      0.0001 or 1/5000; of floats also m"
                 ))
             });

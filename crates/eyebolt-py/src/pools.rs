@@ -48,11 +48,7 @@ pub fn with<T: Send>(
 fn started(threads: usize) -> Result<ThreadPool, CallError> {
     let builder = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES);
     let built = builder.thread_name(|number| format!("eyebolt-{number}")).build();
-    built.map_err(|error| CallError {
-        field: Some("threads".to_owned()),
-        remedy: Some("Ask for fewer".to_owned()),
-        ..CallError::of_text(&format!(
-            "--threads: cannot start the threads: {error}. Ask for fewer"
-        ))
+    built.map_err(|error| {
+        CallError::of_text(&format!("`threads`: cannot start the threads: {error}. Ask for fewer"))
     })
 }
