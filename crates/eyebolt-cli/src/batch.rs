@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, matches: &ArgMatches) -> Result<Ending> {
     let Some(path) = &arguments.output else { bail!("--output: name a folder") };
     let listed = list::read(arguments)?;
     arguments.robot.check_named()?;
-    learned::check(&arguments.learned)?;
+    learned::check(&arguments.way.learned)?;
     let folder = Folder::open(path, &options::given(matches))?;
     folder.keep_list(&listed)?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);

@@ -3,10 +3,11 @@
 pub mod learned;
 mod limits;
 mod marker;
+mod way;
 
 use crate::ending::Ending;
 use crate::front::{Front, Terminal};
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
+use crate::inputs::{RecordingArguments, RobotArguments, use_threads};
 use crate::names;
 use crate::output::{self, Destination, STDOUT};
 use crate::progress::{Bar, leaves};
@@ -17,13 +18,15 @@ use eyebolt::calibrate::Verdict;
 use eyebolt::observations::Configuration;
 use eyebolt::pipeline::{Failure, Outcome, Request};
 use eyebolt::progress::{Progress, Step};
-use eyebolt::record::{RecordError, RecordOptions};
+use eyebolt::record::RecordError;
 use eyebolt::report::{Context, Picture, html, overlays};
 use eyebolt_recording::Recording;
-use eyebolt_robot::Arm;
 use learned::LearnedArguments;
 pub use limits::LimitArguments;
 use std::path::{Path, PathBuf};
+#[cfg(feature = "live")]
+pub(crate) use way::MOST_CONFIGURATIONS;
+pub use way::WayArguments;
 
 /// Options of `eyebolt calibrate`.
 #[derive(Debug, clap::Args)]
@@ -37,13 +40,7 @@ pub struct Arguments {
     #[command(flatten)]
     robot: RobotArguments,
     #[command(flatten)]
-    learned: LearnedArguments,
-    /// Find the arm's pixels by what moved, even if the recording has masks
-    #[arg(long)]
-    no_masks: bool,
-    /// Of more configurations, use those that differ most
-    #[arg(long, value_name = "COUNT", default_value_t = MOST_CONFIGURATIONS, value_parser = clap::value_parser!(u16).range(3..))]
-    max_configurations: u16,
+    way: WayArguments,
     /// Draw the posed arm over each frame, as PNG files in this folder
     #[arg(long, value_name = "FOLDER")]
     save_overlay: Option<PathBuf>,
@@ -54,19 +51,12 @@ pub struct Arguments {
     /// Replace existing files
     #[arg(long)]
     force: bool,
-    #[command(flatten)]
-    limits: LimitArguments,
-    /// Seed of the search; the same seed gives the same bytes on any number of threads
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
     /// Threads to use; otherwise one for each core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Add the milliseconds of each stage to the calibration
     #[arg(long)]
     timing: bool,
-    #[command(flatten)]
-    cache: CacheArguments,
     #[command(flatten)]
     marker: marker::MarkerArguments,
 }
@@ -77,31 +67,23 @@ impl Arguments {
     pub(crate) fn of_session(
         (recording, robot): (RecordingArguments, RobotArguments),
         (output, report): (PathBuf, Option<PathBuf>),
-        (limits, cache): (LimitArguments, CacheArguments),
-        (seed, force): (u64, bool),
+        way: WayArguments,
+        force: bool,
     ) -> Self {
         Self {
             recording,
             output,
             robot,
-            learned: LearnedArguments::default(),
-            no_masks: false,
-            max_configurations: MOST_CONFIGURATIONS,
+            way,
             save_overlay: None,
             report,
             force,
-            limits,
-            seed,
             threads: None,
             timing: false,
-            cache,
             marker: marker::MarkerArguments::default(),
         }
     }
 }
-
-/// Of more configurations, those that differ most are used.
-pub(crate) const MOST_CONFIGURATIONS: u16 = 30;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {
@@ -118,12 +100,12 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
     let recording = arguments.robot.noted(recording, &arm)?;
-    let request = request(arguments, &recording, &arm);
+    let request = arguments.way.request(&recording, &arm);
     if let Some(target) = &arguments.marker.marker {
         let path = &arguments.recording.recording;
         return marker::run(&arguments.marker, target, &request, path, &destination, &bar);
     }
-    let outcome = outcome(&arguments.learned, &arguments.recording.recording, &request, &bar)?;
+    let outcome = outcome(&arguments.way.learned, &arguments.recording.recording, &request, &bar)?;
     Step::Report.begin(&bar)?;
     let pictures = draw(arguments, &recording, &outcome);
     let saved = match &arguments.save_overlay {
@@ -151,19 +133,6 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
 
-fn request<'a>(arguments: &Arguments, recording: &'a Recording<'_>, arm: &'a Arm) -> Request<'a> {
-    Request {
-        cache: arguments.cache.open(),
-        options: RecordOptions {
-            use_masks: !arguments.no_masks,
-            most_configurations: usize::from(arguments.max_configurations),
-        },
-        limits: arguments.limits.limits(),
-        seed: arguments.seed,
-        ..Request::new(recording.source(), arm)
-    }
-}
-
 /// Calibrates the recording that `arguments` name.
 pub(crate) fn of_named(
     arguments: &Arguments,
@@ -181,8 +150,8 @@ pub(crate) fn of(
     let path = &arguments.recording.recording;
     let arm = arguments.robot.arm(path, &recording)?;
     let recording = arguments.robot.noted(recording, &arm)?;
-    let request = request(arguments, &recording, &arm);
-    let outcome = outcome(&arguments.learned, path, &request, progress)?;
+    let request = arguments.way.request(&recording, &arm);
+    let outcome = outcome(&arguments.way.learned, path, &request, progress)?;
     Ok((answer(&arguments.robot, &request, &outcome), outcome))
 }
 

@@ -4,7 +4,7 @@ use crate::robots::{Described, DescriptionArguments};
 use anyhow::{Context, Result, bail};
 use eyebolt_markers::{Target, TargetError};
 use eyebolt_recording::{
-    BagOptions, CloudFrame, DepthUnit, JointNotes, NotedJoints, Recording, WriteRobot,
+    BagOptions, CloudFile, CloudFrame, DepthUnit, JointNotes, NotedJoints, Recording, WriteRobot,
 };
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::{Arm, Robot, RobotError};
@@ -137,6 +137,15 @@ impl RecordingArguments {
         Ok(Recording::open(&self.recording, &self.bag.options_of(robot))?)
     }
 
+    /// As [`Self::open_of`], or one cloud in a file, for those who need no joint positions.
+    pub fn open_or_cloud(&self, robot: &RobotArguments) -> Result<Recording<'static>> {
+        if !CloudFile::is_named(&self.recording) {
+            return self.open_of(robot);
+        }
+        let cloud = CloudFile::open(&self.recording, &self.bag.options_of(robot))?;
+        Ok(Recording::Other(Box::new(cloud)))
+    }
+
     /// As [`Self::open_of`], with one of several topics of depth where none is named.
     pub fn open_any_depth(&self, robot: &RobotArguments) -> Result<Recording<'static>> {
         let options = BagOptions { any_depth: true, ..self.bag.options_of(robot) };
@@ -199,6 +208,12 @@ impl RobotArguments {
                 bail!(
                     "{}: the bag has no robot description. Record /robot_description too, or give \
                      --robot arm.urdf",
+                    path.display()
+                );
+            }
+            if CloudFile::is_named(path) {
+                bail!(
+                    "{}: a cloud does not say of which robot. Give --robot arm.urdf",
                     path.display()
                 );
             }

@@ -9,7 +9,7 @@ mod listening;
 mod publish;
 mod recorder;
 
-use crate::calibrate;
+use crate::calibrate::{self, WayArguments};
 use crate::ending::Ending;
 use crate::inputs::RecordingArguments;
 use crate::output::{self, Destination, STDOUT};
@@ -58,8 +58,8 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let ending = calibrate::run(&calibrate::Arguments::of_session(
         (session, arguments.robot.clone()),
         (arguments.output.clone(), arguments.report.clone()),
-        (arguments.limits.clone(), arguments.cache.clone()),
-        (arguments.seed, arguments.force),
+        WayArguments::plain(arguments.limits.clone(), arguments.seed, arguments.cache.clone()),
+        arguments.force,
     ))?;
     if ended == Ended::Asked {
         output::say(&format!("ended before the goal of {} was met", arguments.goal));

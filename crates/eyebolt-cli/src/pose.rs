@@ -1,6 +1,7 @@
 //! `eyebolt pose`.
 
 mod lines;
+mod mcap;
 
 use crate::ending::Ending;
 use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
@@ -10,11 +11,12 @@ use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::progress::Progress;
-use eyebolt::record::FrameImages;
+use eyebolt::record::{FrameImage, FrameImages};
 use eyebolt_recording::Recording;
 use eyebolt_robot::JointPositions;
 use lines::Line;
-use std::path::PathBuf;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 
 /// Options of `eyebolt pose`.
 #[derive(Debug, clap::Args)]
@@ -40,7 +42,7 @@ pub struct Arguments {
     /// A line of JSON for each frame instead of text
     #[arg(long)]
     json: bool,
-    /// Write the lines of JSON to this file, too
+    /// Write the lines of JSON to this file, too; if it ends in .mcap, the poses as messages for Foxglove and RViz
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace an existing file
@@ -78,8 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
         lines.iter().for_each(|line| output::say(&line.text()));
     }
     if let Some(path) = &arguments.output {
-        let text: String = lines.iter().map(|line| line.json() + "\n").collect();
-        output::write_whole(path, text.as_bytes(), arguments.force)?;
+        write(path, &recording, &lines, arguments.force)?;
     }
     let answered = lines.iter().filter(|line| line.answered).count();
     if !arguments.json {
@@ -88,9 +89,20 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     Ok(if answered == 0 { Ending::Refused } else { Ending::Done })
 }
 
+fn write(path: &Path, recording: &Recording<'_>, lines: &[Line], force: bool) -> Result<()> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) {
+        let filled = |file: &mut File| {
+            mcap::write(recording, lines, file).map_err(|error| output::named(error, path))
+        };
+        return output::write_through(path, force, filled);
+    }
+    let text: String = lines.iter().map(|line| line.json() + "\n").collect();
+    output::write_whole(path, text.as_bytes(), force)
+}
+
 /// The recording that `arguments` name.
 pub(crate) fn named(arguments: &Arguments) -> Result<Recording<'static>> {
-    arguments.recording.open_of(&arguments.robot)
+    arguments.recording.open_or_cloud(&arguments.robot)
 }
 
 /// What is told of each frame of `recording`, and told to `each` as soon as it is known.
@@ -114,7 +126,7 @@ pub(crate) fn of(
     let mut lines = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
         progress.advance(index, names.len())?;
-        let Some(depth) = images.depth(recording.source(), index)? else {
+        let Some(FrameImage { depth, .. }) = images.read(recording.source(), index)? else {
             lines.push(Line::damaged(name, arguments.method));
             continue;
         };
@@ -128,7 +140,8 @@ pub(crate) fn of(
                 estimator.estimate(&depth, images.camera(), label, joints.as_ref())?
             }
         };
-        let line = Line::of(name, arguments.method, joints.is_some(), found);
+        let turn = images.optical_from_camera();
+        let line = Line::of(name, arguments.method, joints.is_some(), found, turn);
         each(&line);
         lines.push(line);
     }

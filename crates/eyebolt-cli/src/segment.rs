@@ -1,6 +1,10 @@
 //! `eyebolt segment`.
 
 mod cloud;
+mod destination;
+mod folder;
+mod mcap;
+mod npz;
 mod teller;
 
 use crate::ending::Ending;
@@ -9,12 +13,12 @@ use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
 use cloud::CloudForm;
+use destination::Destination;
 use eyebolt::progress::Progress;
-use eyebolt::record::FrameImages;
+use eyebolt::record::{FrameImage, FrameImages};
 use eyebolt::report::classes;
-use eyebolt::segment::{ARM, END_EFFECTOR};
-use eyebolt_geometry::{DepthImage, PinholeCamera};
-use eyebolt_recording::{Recording, write_npy};
+use eyebolt::segment::{ARM, END_EFFECTOR, Segmentation};
+use eyebolt_recording::{Recording, counted};
 use std::path::PathBuf;
 use teller::Teller;
 
@@ -32,10 +36,11 @@ pub struct Arguments {
     /// pixels are of it
     #[arg(long)]
     networks_alone: bool,
-    /// Folder for label_FRAME.npy: 0 background, 1 arm, 2 end-effector, 255 no depth
-    #[arg(short, long, value_name = "FOLDER")]
+    /// Folder for label_FRAME.npy: 0 background, 1 arm, 2 end-effector, 255 no depth; or one file: labelled points as .mcap for
+    /// Foxglove and RViz, all labels and their probabilities as .npz, the points of a single frame as .ply or .pcd
+    #[arg(short, long, value_name = "FOLDER|FILE")]
     output: PathBuf,
-    /// Also write the labelled points of each frame there, as cloud_FRAME.ply or .pcd
+    /// Also write the labelled points of each frame into the folder, as cloud_FRAME.ply or .pcd
     #[arg(long, value_enum, value_name = "FORM")]
     clouds: Option<CloudForm>,
     /// Draw each frame with the arm in blue and its end-effector in yellow, as PNG files in this folder
@@ -55,52 +60,87 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let recording = named(arguments)?;
-    let teller = teller(arguments, &recording)?;
-    let names = recording.frame_names().to_vec();
-    let path = |name: &str| arguments.output.join(format!("label_{name}.npy"));
-    let more = More { arguments };
-    for name in &names {
-        output::refuse_existing(&path(name), arguments.force)?;
-        more.refuse_existing(name)?;
+    let names = recording.frame_names();
+    let to = Destination::of(arguments, names)?;
+    to.refuse_existing(names, arguments.force)?;
+    names
+        .iter()
+        .filter_map(|name| picture(arguments, name))
+        .try_for_each(|path| output::refuse_existing(&path, arguments.force))?;
+    let mut teller = teller(arguments, &recording)?;
+    if to.tells_probability() {
+        teller = teller.with_probabilities();
     }
-    let bar = Counting::new()?;
     let tells_end_effector = teller.tells_end_effector();
-    let (mut arm, mut hand) = (0, 0);
-    let left_out = of(arguments, teller, &recording, &bar, &mut |frame| {
-        let count = |class: u8| frame.label.iter().filter(|label| **label == class).count();
-        arm += usize::from(count(ARM) + count(END_EFFECTOR) > 0);
-        hand += usize::from(count(END_EFFECTOR) > 0);
-        more.write(frame.name, &frame.depth, frame.camera, &frame.label)?;
-        let shape = [frame.depth.height() as usize, frame.depth.width() as usize];
-        let bytes = write_npy("|u1", &shape, frame.label);
-        output::write_whole(&path(frame.name), &bytes, arguments.force)
+    let bar = Counting::new()?;
+    let mut seen = Seen::default();
+    to.fill(&recording, arguments.force, |sink| {
+        seen.damaged = of(arguments, teller, &recording, &bar, &mut |frame| {
+            seen.count(&frame);
+            if let Some(path) = picture(arguments, frame.name) {
+                let drawn = classes(&frame.image.depth, &frame.found.label).encode_png();
+                output::write_whole(&path, &drawn, arguments.force)?;
+            }
+            sink.frame(&frame)
+        })?
+        .len();
+        Ok(())
     })?;
     drop(bar);
-    let left_out = left_out.len();
-    let (written, folder) = (names.len() - left_out, arguments.output.display());
-    let hand = match tells_end_effector {
-        true => format!(", the end-effector in {hand}"),
-        false => String::new(),
-    };
-    output::say(&format!("{written} frames written to {folder}: the arm in {arm}{hand}"));
-    if left_out > 0 {
-        output::complain(&format!("note: {left_out} damaged frames left out"));
+    output::say(&seen.text(&to.path().display().to_string(), tells_end_effector));
+    if seen.damaged > 0 {
+        output::complain(&format!("note: {} left out", counted(seen.damaged, "damaged frame")));
     }
     Ok(Ending::Done)
 }
 
+fn picture(arguments: &Arguments, name: &str) -> Option<PathBuf> {
+    Some(arguments.overlay.as_ref()?.join(format!("overlay_{name}.png")))
+}
+
+/// In how many frames what was seen.
+#[derive(Default)]
+struct Seen {
+    frames: usize,
+    arm: usize,
+    end_effector: usize,
+    damaged: usize,
+}
+
+impl Seen {
+    fn count(&mut self, frame: &Segmented<'_>) {
+        let label = &frame.found.label;
+        self.frames += 1;
+        self.arm += usize::from(label.iter().any(|label| [ARM, END_EFFECTOR].contains(label)));
+        self.end_effector += usize::from(label.contains(&END_EFFECTOR));
+    }
+
+    fn text(&self, path: &str, tells_end_effector: bool) -> String {
+        let hand = match tells_end_effector {
+            true => format!(", the end-effector in {}", self.end_effector),
+            false => String::new(),
+        };
+        format!(
+            "{} written to {path}: the arm in {}{hand}",
+            counted(self.frames, "frame"),
+            self.arm
+        )
+    }
+}
+
 /// A frame whose pixels are labelled.
 pub(crate) struct Segmented<'a> {
+    /// Which frame of the recording it is.
+    pub(crate) index: usize,
     pub(crate) name: &'a str,
-    pub(crate) depth: DepthImage,
-    pub(crate) camera: &'a PinholeCamera,
-    /// A class for each pixel, row by row.
-    pub(crate) label: Vec<u8>,
+    images: &'a FrameImages,
+    pub(crate) image: FrameImage,
+    pub(crate) found: Segmentation,
 }
 
 /// The recording that `arguments` name.
 pub(crate) fn named(arguments: &Arguments) -> Result<Recording<'static>> {
-    arguments.recording.open_of(&arguments.robot)
+    arguments.recording.open_or_cloud(&arguments.robot)
 }
 
 /// The model that `arguments` name, for the robot that they or `recording` name.
@@ -126,55 +166,16 @@ pub(crate) fn of(
         bail!("{}: there is no frame in it", arguments.recording.recording.display());
     }
     let images = FrameImages::of(recording.source())?;
-    let camera = images.camera();
     let mut left_out = Vec::new();
     for (index, name) in names.iter().enumerate() {
         progress.advance(index, names.len())?;
-        let Some(depth) = images.depth(recording.source(), index)? else {
+        let Some(image) = images.read(recording.source(), index)? else {
             left_out.push(name.clone());
             continue;
         };
-        let label = teller.label(&depth, camera)?.label;
-        each(Segmented { name, depth, camera, label })?;
+        let found = teller.label(&image.depth, images.camera())?;
+        each(Segmented { index, name, images: &images, image, found })?;
     }
     progress.advance(names.len(), names.len())?;
     Ok(left_out)
-}
-
-/// What is written beside labels.
-struct More<'a> {
-    arguments: &'a Arguments,
-}
-
-impl More<'_> {
-    fn cloud(&self, name: &str) -> Option<(CloudForm, PathBuf)> {
-        let form = self.arguments.clouds?;
-        Some((form, self.arguments.output.join(format!("cloud_{name}.{}", form.ending()))))
-    }
-
-    fn picture(&self, name: &str) -> Option<PathBuf> {
-        Some(self.arguments.overlay.as_ref()?.join(format!("overlay_{name}.png")))
-    }
-
-    fn refuse_existing(&self, name: &str) -> Result<()> {
-        let paths = self.cloud(name).map(|(_, path)| path).into_iter().chain(self.picture(name));
-        paths.into_iter().try_for_each(|path| output::refuse_existing(&path, self.arguments.force))
-    }
-
-    fn write(
-        &self,
-        name: &str,
-        depth: &DepthImage,
-        camera: &PinholeCamera,
-        label: &[u8],
-    ) -> Result<()> {
-        if let Some((form, path)) = self.cloud(name) {
-            output::write_whole(&path, &form.bytes(depth, camera, label), self.arguments.force)?;
-        }
-        if let Some(path) = self.picture(name) {
-            let picture = classes(depth, label).encode_png();
-            output::write_whole(&path, &picture, self.arguments.force)?;
-        }
-        Ok(())
-    }
 }

@@ -10,7 +10,6 @@ mod camera;
 mod check;
 mod choose;
 mod clock;
-mod clouds;
 mod color_view;
 mod copy_source;
 mod frame_reader;

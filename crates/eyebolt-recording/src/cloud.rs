@@ -6,6 +6,7 @@ mod pcd;
 mod ply;
 mod stored;
 mod text;
+mod told_frame;
 
 use crate::depth::{LEAVE_OUT, scaled};
 use crate::depth_unit::DepthUnit;
@@ -16,7 +17,9 @@ use crate::unit_check::check_unit;
 use eyebolt_geometry::Cloud;
 use nalgebra::Point3;
 use std::path::Path;
+pub(crate) use stored::Stored;
 use stored::{FIELD, LARGEST, invalid};
+pub(crate) use told_frame::{frame_of, frame_remedy};
 
 /// Reads a cloud stored in `unit` and `frame`; the points returned are in the optical frame.
 pub(crate) fn read_cloud(
@@ -25,11 +28,25 @@ pub(crate) fn read_cloud(
     unit: DepthUnit,
     frame: CloudFrame,
 ) -> Result<Cloud, RecordingError> {
-    let stored = match extension {
-        "pcd" => pcd::parse(path, read_bytes(path, FIELD, LARGEST)?)?,
-        "ply" => ply::parse(path, &read_bytes(path, FIELD, LARGEST)?)?,
-        _ => npy::read(path)?,
-    };
+    optical_cloud(path, read_stored(path, extension)?, unit, frame)
+}
+
+/// Reads a cloud as its file has it.
+pub(crate) fn read_stored(path: &Path, extension: &str) -> Result<Stored, RecordingError> {
+    match extension {
+        "pcd" => pcd::parse(path, read_bytes(path, FIELD, LARGEST)?),
+        "ply" => ply::parse(path, &read_bytes(path, FIELD, LARGEST)?),
+        _ => npy::read(path),
+    }
+}
+
+/// The cloud that a file has `stored` in `unit` and `frame`, in the optical frame.
+pub(crate) fn optical_cloud(
+    path: &Path,
+    stored: Stored,
+    unit: DepthUnit,
+    frame: CloudFrame,
+) -> Result<Cloud, RecordingError> {
     let values = scaled(stored.xyz, unit);
     let (triples, _) = values.as_chunks::<3>();
     let points: Vec<_> = triples.iter().map(|xyz| optical(*xyz, frame)).collect();

@@ -45,6 +45,7 @@ mod bag;
 mod bag_recording;
 mod camera_info;
 mod cloud;
+mod cloud_file;
 mod color;
 mod depth;
 mod depth_unit;
@@ -84,6 +85,7 @@ pub use bag_recording::{
     BagOptions, BagRecording, GrowingRecording, list_topics, static_transforms,
 };
 pub use camera_info::CameraInfo;
+pub use cloud_file::CloudFile;
 pub use color::{CameraPicture, ColorImage};
 pub use depth_unit::DepthUnit;
 pub use describe::{Described, describe_folder, description_of};
@@ -96,15 +98,15 @@ pub use in_memory::{BorrowedFrame, BorrowedFrames, InMemory, Make, depth_from_mi
 pub use joint_names::{JointNotes, NotedJoints};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::{
-    Marker, MarkerShape, StaticTransform, markers_message, text_message,
-    write_transforms as static_transforms_message,
+    Marker, MarkerShape, PaintedCloud, PointValues, StaticTransform, UncertainPose,
+    markers_message, text_message, write_transforms as static_transforms_message,
 };
 pub use npy::{Dtype, Npy, Number};
 pub use progress::{Cancelled, Progress};
 pub use provenance::{
     ClockOffset, DepthChoice, DropReason, DroppedFrame, Provenance, TopicSummary,
 };
-pub use recording::Recording;
+pub use recording::{OPTICAL_FRAME, Recording};
 pub use tf_file::parse_static_transforms;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use words::counted;

@@ -11,6 +11,8 @@ mod header;
 mod image;
 mod joint_state;
 mod marker_array;
+mod painted_cloud;
+mod pose;
 mod rvl;
 mod string;
 #[cfg(test)]
@@ -28,6 +30,8 @@ pub(crate) use header::Header;
 pub(crate) use image::{ImageMessage, is_depth_encoding};
 pub(crate) use joint_state::JointStateMessage;
 pub use marker_array::{Marker, MarkerShape, markers_message};
+pub use painted_cloud::{PaintedCloud, PointValues};
+pub use pose::UncertainPose;
 pub(crate) use string::text;
 pub use string::text_message;
 pub(crate) use transforms::transforms;

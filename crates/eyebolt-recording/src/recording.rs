@@ -21,6 +21,16 @@ pub enum Recording<'a> {
     Other(Box<dyn FrameSource + 'a>),
 }
 
+/// The optical frame of recordings that name none.
+pub const OPTICAL_FRAME: &str = "camera_depth_optical_frame";
+
+/// The stamp of image `index` of those that have none, nanoseconds: a second after the one before, and never 0, which
+/// would mean "no stamp".
+pub(crate) fn stamp_ns(index: usize) -> i64 {
+    const STEP_NS: i64 = 1_000_000_000;
+    i64::try_from(index).unwrap_or(i64::MAX).saturating_add(1).saturating_mul(STEP_NS)
+}
+
 impl<'a> Recording<'a> {
     /// Opens the recording at `path`: a folder with a `recording.toml`, that file itself, a bag, or
     /// a folder with a bag in it. `options` are for bags, but for the unit of depth.
@@ -46,6 +56,13 @@ impl<'a> Recording<'a> {
             Self::Bag(bag) => bag.as_ref(),
             Self::Other(source) => source.as_ref(),
         }
+    }
+
+    /// When frame `index` was taken, nanoseconds since 1970; of what has no stamps, when [`crate::write_mcap`] says: images are a second
+    /// apart, backgrounds first.
+    pub fn stamp_ns(&self, index: usize) -> i64 {
+        let known = self.bag().and_then(|bag| bag.stamp_ns(index));
+        known.unwrap_or_else(|| stamp_ns(self.background_count().saturating_add(index)))
     }
 
     /// The bag, if it is one.

@@ -17,7 +17,7 @@ mod spread;
 
 pub(crate) use configurations::{Group, Groups, group_frames};
 pub use error::RecordError;
-pub use frame_images::FrameImages;
+pub use frame_images::{FrameImage, FrameImages};
 pub(crate) use joints::offered;
 pub use observe::observe;
 pub(crate) use options::MOST_CONFIGURATIONS;

@@ -11,6 +11,7 @@ mod middle;
 mod open;
 mod segmenter;
 mod thinned;
+mod told;
 mod upsample;
 mod window;
 
@@ -23,6 +24,7 @@ pub use grid::Grid;
 pub use middle::middle;
 pub use segmenter::{Segmentation, Segmenter};
 pub use thinned::Thinned;
+pub use told::Told;
 pub use window::{
     WINDOW_COLUMNS, WINDOW_FEATURES, Window, part_around, window_half_m, window_step,
 };

@@ -1,8 +1,7 @@
 //! Flags of `eyebolt batch`.
 
-use crate::calibrate::LimitArguments;
-use crate::calibrate::learned::LearnedArguments;
-use crate::inputs::{BagArguments, CacheArguments, RobotArguments};
+use crate::calibrate::WayArguments;
+use crate::inputs::{BagArguments, RobotArguments};
 use eyebolt::dataset::Shard;
 use std::path::PathBuf;
 
@@ -42,23 +41,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub robot: RobotArguments,
     #[command(flatten)]
-    pub learned: LearnedArguments,
-    /// Find the arm's pixels by what moved, even if the recordings have masks
-    #[arg(long)]
-    pub no_masks: bool,
-    /// Of more configurations, use those that differ most
-    #[arg(long, value_name = "COUNT", default_value_t = 30, value_parser = clap::value_parser!(u16).range(3..))]
-    pub max_configurations: u16,
-    #[command(flatten)]
-    pub limits: LimitArguments,
-    /// Seed of the search; the same seed gives the same bytes on any number of threads and shards
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    pub way: WayArguments,
     /// Threads to use; otherwise one for each core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    #[command(flatten)]
-    pub cache: CacheArguments,
     #[command(flatten)]
     pub bag: BagArguments,
 }

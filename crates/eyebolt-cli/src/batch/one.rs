@@ -10,8 +10,6 @@ use anyhow::Result;
 use eyebolt::answer::Answer;
 use eyebolt::batch::{Line, Listed};
 use eyebolt::calibrate::Verdict;
-use eyebolt::pipeline::Request;
-use eyebolt::record::RecordOptions;
 use eyebolt_recording::Recording;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -46,17 +44,8 @@ fn find(arguments: &Arguments, recording: &str) -> Result<Found> {
     let opened = Recording::open(path, &arguments.bag.options_of(&arguments.robot))?;
     let arm = arguments.robot.arm(path, &opened)?;
     let opened = arguments.robot.noted(opened, &arm)?;
-    let request = Request {
-        cache: arguments.cache.open(),
-        options: RecordOptions {
-            use_masks: !arguments.no_masks,
-            most_configurations: usize::from(arguments.max_configurations),
-        },
-        limits: arguments.limits.limits(),
-        seed: arguments.seed,
-        ..Request::new(opened.source(), &arm)
-    };
-    let outcome = outcome(&arguments.learned, path, &request, &bar)?;
+    let request = arguments.way.request(&opened, &arm);
+    let outcome = outcome(&arguments.way.learned, path, &request, &bar)?;
     let answer = answer(&arguments.robot, &request, &outcome);
     let report = arguments.report.then(|| {
         let pictures = pictures(&opened, &outcome, &Terminal);

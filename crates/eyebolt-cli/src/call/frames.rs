@@ -40,8 +40,9 @@ pub fn segment(
     };
     let teller = segment_command::teller(&arguments, &recording)?;
     let mut hand_on = |frame: segment_command::Segmented<'_>| -> anyhow::Result<()> {
-        let size = [frame.depth.width() as usize, frame.depth.height() as usize];
-        Ok(each(LabelledFrame { name: frame.name.to_owned(), size, label: frame.label })?)
+        let size = [frame.found.width, frame.found.height];
+        let label = frame.found.label;
+        Ok(each(LabelledFrame { name: frame.name.to_owned(), size, label })?)
     };
     Ok(segment_command::of(&arguments, teller, &recording, progress, &mut hand_on)?)
 }

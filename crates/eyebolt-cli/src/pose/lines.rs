@@ -1,6 +1,8 @@
 //! What is said of the pose in one frame.
 
 use eyebolt::pose::{ExpectedError, PoseAnswer, PoseMethod};
+use eyebolt_geometry::{Camera, EndEffector, Transform};
+use eyebolt_recording::UncertainPose;
 use serde::Serialize;
 
 /// A frame's line.
@@ -51,12 +53,13 @@ impl Line {
         }
     }
 
-    /// Of what was found in a frame.
+    /// Of what was found in a frame, by a camera that is turned against the recording's.
     pub fn of(
         frame: &str,
         method: PoseMethod,
         joint_states: bool,
         found: Option<PoseAnswer>,
+        optical_from_camera: &Transform<Camera, Camera>,
     ) -> Self {
         let Some(found) = found else {
             return Self::none(
@@ -66,9 +69,9 @@ impl Line {
                 "too little of the end-effector is in view",
             );
         };
-        let pose = |of: &eyebolt_geometry::Transform<_, _>| Pose {
-            translation_m: of.translation_m().into(),
-            rotation_xyzw: of.rotation_xyzw(),
+        let pose = |of: &Transform<Camera, EndEffector>| {
+            let of = *optical_from_camera * *of;
+            Pose { translation_m: of.translation_m().into(), rotation_xyzw: of.rotation_xyzw() }
         };
         let error =
             |ExpectedError { translation_mm, rotation_deg }| Error { translation_mm, rotation_deg };
@@ -82,6 +85,24 @@ impl Line {
             joint_states,
             reason: found.refusal.map(|refusal| refusal.to_string()),
         }
+    }
+
+    /// Where the end-effector is in the camera's optical frame, if that may be relied on.
+    pub fn answer(&self) -> Option<UncertainPose> {
+        let Pose { translation_m, rotation_xyzw } =
+            *self.camera_from_end_effector.as_ref().filter(|_| self.answered)?;
+        let (mm, deg) = self
+            .expected_error
+            .as_ref()
+            .map_or((0.0, 0.0), |error| (error.translation_mm, error.rotation_deg));
+        // An error of that size, in no direction more than in others.
+        let along_an_axis = f64::sqrt(3.0).recip();
+        Some(UncertainPose {
+            translation_m,
+            rotation_xyzw,
+            translation_sd_m: 1e-3 * mm * along_an_axis,
+            rotation_sd: deg.to_radians() * along_an_axis,
+        })
     }
 
     /// For programs.

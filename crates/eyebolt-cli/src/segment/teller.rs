@@ -44,6 +44,14 @@ impl Teller {
         }
     }
 
+    /// Which also tells how likely each class is.
+    pub fn with_probabilities(self) -> Self {
+        match self {
+            Self::Networks(segmenter) => Self::Networks(Box::new(segmenter.with_probabilities())),
+            Self::Posed(recognizer) => Self::Posed(Box::new(recognizer.with_probabilities())),
+        }
+    }
+
     /// Whether the end-effector is told apart.
     pub fn tells_end_effector(&self) -> bool {
         match self {

@@ -24,6 +24,7 @@ mod reproduce;
 mod robots;
 #[path = "../../../eyebolt/tests/newcomer/scene.rs"]
 mod scene;
+mod segment;
 mod shell;
 mod simulate;
 mod simulate_flags;

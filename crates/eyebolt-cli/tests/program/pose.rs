@@ -47,6 +47,47 @@ fn every_frame_has_its_line_and_no_answer_is_far_off() {
         }
     }
     pose(&["-o", text(&file)]).assert_error(1, &["poses.jsonl", "exists", "--force"]);
+    // As messages: every line, and the poses that are to be relied on.
+    let messages = desk.file("poses.mcap");
+    assert_eq!(pose(&["-o", text(&messages)]).code, Some(0));
+    let bytes = fs::read(&messages).unwrap();
+    let messages: Vec<_> =
+        mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap()).collect();
+    let on = |topic: &str| messages.iter().filter(|it| it.channel.topic == topic).count();
+    assert_eq!(on("/eyebolt/pose"), lines.len());
+    assert_eq!(on("/eyebolt/end_effector"), answered.len());
+}
+
+/// A cloud without a camera is seen by a camera of our own, which looks elsewhere: poses are in the frame of the cloud all the same.
+#[test]
+fn a_cloud_has_the_pose_that_its_image_has() {
+    let desk = Desk::new();
+    let (clouds, model) = (desk.file("clouds"), models("shackle"));
+    let model = ["--model", text(&model), "--cache", text(&CACHE)];
+    let segment = ["segment", text(&SIMULATED), "-o", text(&clouds), "--clouds", "pcd"];
+    assert_eq!(eyebolt(&[&segment[..], &model, &["--networks-alone"]].concat()).code, Some(0));
+    let places = |said: &str| -> Vec<Option<[f64; 3]>> {
+        let lines = said.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let place = |line: Value| {
+            let at = &line["camera_from_end_effector"]["translation_m"];
+            let at = [0, 1, 2].map(|axis| at[axis].as_f64());
+            (line["answered"] == true).then(|| at.map(Option::unwrap))
+        };
+        lines.map(place).collect()
+    };
+    let of_images = places(&pose(&["--json"]).out);
+    let mut both = 0;
+    for (frame, of_image) in of_images.iter().enumerate().step_by(3) {
+        let cloud = clouds.join(format!("cloud_{frame}.pcd"));
+        let words = ["pose", text(&cloud), "--robot", "shackle", "--json"];
+        let of_cloud = places(&eyebolt(&[&words[..], &model].concat()).out);
+        if let ([Some(at)], Some(of_image)) = (&of_cloud[..], of_image) {
+            let off = (0..3).map(|axis| (at[axis] - of_image[axis]).powi(2)).sum::<f64>().sqrt();
+            assert!(off < 0.01, "frame {frame}: {off} m");
+            both += 1;
+        }
+    }
+    assert!(both >= 2, "{both} of 5");
 }
 
 #[test]

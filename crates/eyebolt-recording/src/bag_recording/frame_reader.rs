@@ -1,9 +1,9 @@
 //! Frames of a bag, from their messages.
 
-use super::clouds;
 use super::picture_topic::PictureTopic;
 use super::scan::FrameEntry;
 use crate::bag::Bag;
+use crate::cloud::{frame_of, frame_remedy};
 use crate::color::ColorImage;
 use crate::depth_unit::DepthUnit;
 use crate::error::RecordingError;
@@ -104,14 +104,8 @@ impl FrameReader<'_> {
         entry: &FrameEntry,
     ) -> Result<CloudFrame, RecordingError> {
         let (points, _) = self.points(topic, entry)?;
-        let found = clouds::frame_of(topic.frame_id.as_deref(), &points);
-        found.map_err(|problem| {
-            let remedy = format!(
-                "Give {}: optical (x right, y down, z forward) or body (x forward, y left, z up)",
-                Input::CLOUD_FRAME
-            );
-            self.invalid(&topic.field(entry), problem, &remedy)
-        })
+        let found = frame_of(topic.frame_id.as_deref(), &points);
+        found.map_err(|problem| self.invalid(&topic.field(entry), problem, &frame_remedy()))
     }
 
     fn cloud(

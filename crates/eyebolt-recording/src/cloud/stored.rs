@@ -18,11 +18,11 @@ pub(super) const LARGEST_HEADER: usize = 64 << 10;
 
 /// A cloud in the unit and the frame of its file.
 #[derive(Debug)]
-pub(super) struct Stored {
+pub(crate) struct Stored {
     /// Three coordinates for every point.
-    pub(super) xyz: Vec<f32>,
+    pub(crate) xyz: Vec<f32>,
     /// Width and height, if the points are in the order of an image.
-    pub(super) grid: Option<(u32, u32)>,
+    pub(crate) grid: Option<(u32, u32)>,
 }
 
 /// Something is wrong with the file at `path`.

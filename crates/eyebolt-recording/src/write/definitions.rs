@@ -29,6 +29,12 @@ const VECTOR: (&str, &str) = ("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfl
 const QUATERNION: (&str, &str) =
     ("geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n");
 
+const POSED: (&str, &str) =
+    ("geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n");
+const POSE: (&str, &str) =
+    ("geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n");
+const POINT: (&str, &str) = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
+
 const IMAGE: &str = "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\n\
                      uint8 is_bigendian\nuint32 step\nuint8[] data\n";
 const COMPRESSED: &str = "std_msgs/Header header\nstring format\nuint8[] data\n";
@@ -51,6 +57,10 @@ pub(super) fn definition(message_type: &str) -> Option<String> {
         types::CLOUD => (CLOUD, &[HEADER, TIME, POINT_FIELD]),
         types::CAMERA_INFO => (CAMERA_INFO, &[HEADER, TIME, REGION]),
         types::JOINT_STATE => (JOINT_STATE, &[HEADER, TIME]),
+        types::POSE => (
+            "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n",
+            &[HEADER, TIME, POSED, POSE, POINT, QUATERNION],
+        ),
         types::STRING => ("string data\n", &[]),
         types::TRANSFORMS => (
             "geometry_msgs/TransformStamped[] transforms\n",

@@ -6,14 +6,9 @@ use super::robot::WriteRobot;
 use crate::frame::Range;
 use crate::own_metadata::SCHEMA;
 use crate::progress::Progress;
-use crate::recording::Recording;
+use crate::recording::{OPTICAL_FRAME, Recording, stamp_ns};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
-
-/// The frame of recordings that name none.
-const OPTICAL_FRAME: &str = "camera_depth_optical_frame";
-/// From one image to the next; the first is not at zero, which would mean "no stamp".
-const STEP_NS: i64 = 1_000_000_000;
 
 /// What eyebolt knows of a recording that no message says.
 pub(super) fn metadata(recording: &Recording, robot: &WriteRobot) -> BTreeMap<String, String> {
@@ -58,18 +53,21 @@ pub(super) fn write(
     }
     let (backgrounds, frames) = (recording.background_count(), recording.frame_names().len());
     let total = backgrounds + frames;
-    let mut stamps = (1..).map(|second| second * STEP_NS);
-    for (index, stamp_ns) in (0..backgrounds).zip(&mut stamps) {
+    for index in 0..backgrounds {
         progress.advance(index, total)?;
         let background = match recording.read_background(index) {
             Err(error) if recording.may_leave_out(&error) => continue,
             read => read?,
         };
-        writer.background_in(stamp_ns, &background, recording.backgrounds_in_millimetres())?;
+        writer.background_in(
+            stamp_ns(index),
+            &background,
+            recording.backgrounds_in_millimetres(),
+        )?;
     }
-    for (index, stamp_ns) in (0..frames).zip(&mut stamps) {
+    for index in 0..frames {
         progress.advance(backgrounds + index, total)?;
-        one(recording, index, stamp_ns, &mut writer)?;
+        one(recording, index, recording.stamp_ns(index), &mut writer)?;
     }
     progress.advance(total, total)?;
     writer.finish()

@@ -61,8 +61,13 @@ impl<W: Write + Seek> McapWriter<W> {
         self.writer.write_metadata(&metadata).map_err(failed)
     }
 
-    /// Writes a message in CDR; of types that are not known, nothing.
-    pub(crate) fn write(
+    /// Writes a message in CDR of the type `message_type` (`sensor_msgs/PointCloud2`), stamped `log_time_ns`; of types that are
+    /// not known, nothing.
+    ///
+    /// # Errors
+    ///
+    /// A failing output.
+    pub fn write(
         &mut self,
         topic: &str,
         message_type: &str,

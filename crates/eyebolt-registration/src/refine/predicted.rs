@@ -22,8 +22,11 @@ pub type PredictedInformation = SMatrix<f64, PREDICTED, PREDICTED>;
 /// What is expected to be off, by kind of evidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExpectedNoise {
-    /// Standard deviation of single residuals as (5) has it, in the kind's unit.
+    /// Standard deviation of single residuals as (5) has it, in the kind's unit; of surfaces, of those near by.
     pub deviations: [f64; EVIDENCE_KINDS],
+    /// What is added to it by distance, of surfaces and of links by their surface: this times the squared depth in metres, as
+    /// triangulation has it (1/m).
+    pub by_squared_depth: f64,
     /// How far a link in a view seems to be off as a whole, along each axis, metres: errors of shape, of joints and of depth
     /// there, which the sandwich (8) finds afterwards.
     pub of_link_m: [f64; EVIDENCE_KINDS],
@@ -33,7 +36,41 @@ pub struct ExpectedNoise {
 
 impl Default for ExpectedNoise {
     fn default() -> Self {
-        Self { deviations: [0.002, 1.2], of_link_m: [0.001, 0.0007], of_view: [0.002, 0.3] }
+        Self {
+            deviations: [0.0015, 1.2],
+            by_squared_depth: 0.0008,
+            of_link_m: [0.0008, 0.0007],
+            of_view: [0.002, 0.3],
+        }
+    }
+}
+
+impl ExpectedNoise {
+    /// `deviation` of a surface near by, at `depth_m`, both metres.
+    fn at(&self, deviation_m: f64, depth_m: f64) -> f64 {
+        deviation_m.hypot(self.by_squared_depth * depth_m * depth_m)
+    }
+}
+
+/// What one link in one view says by one kind of evidence.
+#[derive(Clone, Default)]
+struct Patch {
+    information: PredictedInformation,
+    /// Sum of the depths of its samples, metres, and how many there are.
+    depths: (f64, f64),
+}
+
+impl Patch {
+    fn add(&mut self, jacobian: &Unknowns, weight: f64, depth_m: f64) {
+        let own = jacobian.fixed_rows::<PREDICTED>(0).into_owned();
+        self.information.ger(weight, &own, &own, 1.0);
+        self.depths.0 += depth_m;
+        self.depths.1 += 1.0;
+    }
+
+    /// Mean depth, metres.
+    fn depth_m(&self) -> f64 {
+        self.depths.0 / self.depths.1.max(1.0)
     }
 }
 
@@ -64,19 +101,20 @@ pub fn predicted_information(
 ) -> PredictedInformation {
     let state = State::from(*at);
     let posed = PosedArm { arm, posture, state: &state };
-    let mut patches = vec![[PredictedInformation::zeros(); EVIDENCE_KINDS]; arm.links().len()];
-    let weight = |kind: usize, samples: f64| {
-        samples / KINDS[kind].correlated_samples() / noise.deviations[kind].powi(2)
+    let mut patches = vec![<[Patch; EVIDENCE_KINDS]>::default(); arm.links().len()];
+    let weight = |kind: usize, samples: f64, deviation: f64| {
+        samples / KINDS[kind].correlated_samples() / deviation.powi(2)
     };
-    let of_surface = weight(SURFACES, coarser * coarser);
     let stride = (raster.pixels().count() / MOST_PIXELS).max(1);
     for at in raster.pixels().step_by(stride) {
-        let Some((link, jacobian)) = surface_at(&posed, drawn, raster, at) else { continue };
+        let Some((link, jacobian, z)) = surface_at(&posed, drawn, raster, at) else { continue };
         if counts(link) {
-            add(&mut patches[link][SURFACES], &jacobian, stride as f64 * of_surface);
+            let deviation = noise.at(noise.deviations[SURFACES], z);
+            let weight = weight(SURFACES, stride as f64 * coarser * coarser, deviation);
+            patches[link][SURFACES].add(&jacobian, weight, z);
         }
     }
-    let of_outline = weight(OUTLINES, coarser);
+    let of_outline = weight(OUTLINES, coarser, noise.deviations[OUTLINES]);
     for point in outer_contour(raster, drawn) {
         let link = usize::from(point.link);
         let in_camera: Point3<f64> = point.point_in_camera.cast();
@@ -84,23 +122,22 @@ pub fn predicted_information(
         let along = by_point.tr_mul(&point.outward.cast::<f64>());
         if counts(link) {
             let jacobian = outline_jacobian(&posed, link, &in_camera, &along);
-            add(&mut patches[link][OUTLINES], &jacobian, of_outline);
+            patches[link][OUTLINES].add(&jacobian, of_outline, in_camera.z);
         }
     }
     let mut sum = PredictedInformation::zeros();
     for kind in 0..EVIDENCE_KINDS {
         let mut of_kind = PredictedInformation::zeros();
         for link in &patches {
-            of_kind += without_own_shift(&link[kind], noise.of_link_m[kind]);
+            let of_link_m = match kind {
+                SURFACES => noise.at(noise.of_link_m[kind], link[kind].depth_m()),
+                _ => noise.of_link_m[kind],
+            };
+            of_kind += without_own_shift(&link[kind].information, of_link_m);
         }
         sum += without_own_nuisance(of_kind, kind, noise.of_view[kind]);
     }
     sum
-}
-
-fn add(sum: &mut PredictedInformation, jacobian: &Unknowns, weight: f64) {
-    let own = jacobian.fixed_rows::<PREDICTED>(0).into_owned();
-    sum.ger(weight, &own, &own, 1.0);
 }
 
 /// Pixels that are looked at of a view.
@@ -118,13 +155,13 @@ fn without_own_nuisance(
     information - own * own.transpose() / weight
 }
 
-/// The link drawn at pixel `at`, and how the distance from its surface there changes.
+/// The link drawn at pixel `at`, how the distance from its surface there changes, and how deep that is, metres.
 fn surface_at(
     posed: &PosedArm<'_>,
     drawn: &PinholeCamera,
     raster: &Raster,
     at: usize,
-) -> Option<(usize, Unknowns)> {
+) -> Option<(usize, Unknowns, f64)> {
     let (u, v) = (at % raster.width(), at / raster.width());
     let (z, link) = (raster.depth_m(at)?, usize::from(raster.link(at)?));
     let point = drawn.ray(&Point2::new(u as f64, v as f64))? * f64::from(z);
@@ -135,5 +172,6 @@ fn surface_at(
     let normal_in_base = near.gradient_in_base.cast::<f64>();
     let normal = pose.rotation * normal_in_base;
     let spot = Spot { point, normal, point_in_base, normal_in_base };
-    (normal.dot(&point) < 0.0).then(|| (near.link, surface_jacobian(posed, near.link, &spot)))
+    let jacobian = (normal.dot(&point) < 0.0).then(|| surface_jacobian(posed, near.link, &spot))?;
+    Some((near.link, jacobian, f64::from(z)))
 }

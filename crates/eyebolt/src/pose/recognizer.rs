@@ -51,6 +51,11 @@ impl Recognizer {
         Self { segmenter, estimator, raster: None }
     }
 
+    /// Which also tells how likely each class is.
+    pub fn with_probabilities(self) -> Self {
+        Self { segmenter: self.segmenter.with_probabilities(), ..self }
+    }
+
     /// By all the networks in the folder of a model that `eyebolt train` made for `shape`.
     ///
     /// # Errors

@@ -145,7 +145,7 @@ impl Projection {
 
     /// Depth of a cloud along the camera's axis: pixel by pixel where the grid is the camera's,
     /// projected otherwise.
-    fn cloud_depth(&self, cloud: &Cloud) -> DepthImage {
+    pub fn cloud_depth(&self, cloud: &Cloud) -> DepthImage {
         let turned = cloud.rotated(&self.optical_from_camera.rotation().inverse());
         let (width, height) = (self.camera.width(), self.camera.height());
         if turned.grid() == Some((width, height)) {

@@ -4,6 +4,7 @@ use super::classes::{ARM, CLASSES, END_EFFECTOR};
 use super::error::SegmentError;
 use super::middle::middle;
 use super::thinned::Thinned;
+use super::told::Told;
 use super::upsample::upsample;
 use super::window::{Part, WINDOW_FEATURES, Window, part_around};
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
@@ -69,12 +70,15 @@ impl EndEffectorNet {
         depth: &DepthImage,
         camera: &PinholeCamera,
         rays: &RayTable,
-        label: &mut [u8],
+        told: &mut Told,
     ) -> Result<(), SegmentError> {
-        let found = self.found(depth, camera, rays, label)?;
-        label.iter_mut().filter(|label| **label == END_EFFECTOR).for_each(|label| *label = ARM);
+        let found = self.found(depth, camera, rays, &told.label)?;
+        told.label
+            .iter_mut()
+            .filter(|label| **label == END_EFFECTOR)
+            .for_each(|label| *label = ARM);
         match found.into_iter().next() {
-            Some(best) => self.paint(depth, camera, best, label),
+            Some(best) => self.paint(depth, camera, best, told),
             None => Ok(()),
         }
     }
@@ -109,13 +113,13 @@ impl EndEffectorNet {
         depth: &DepthImage,
         camera: &PinholeCamera,
         found: Found,
-        label: &mut [u8],
+        told: &mut Told,
     ) -> Result<(), SegmentError> {
         let again = self.look(depth, camera, found.middle)?;
         let again = again.filter(|again| again.area >= (1.0 - LESS) * found.area);
         let Found { image, part, window, logits, middle, .. } = &again.unwrap_or(found);
         let range = middle[2] - self.half_m..middle[2] + self.half_m;
-        upsample(depth, (image, &window.pixels, logits), part, &range, label);
+        upsample(depth, (image, &window.pixels, logits), part, &range, told);
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! From a depth image to labels of its pixels.
 
-use super::classes::{ARM, BACKGROUND, END_EFFECTOR, UNKNOWN};
+use super::classes::{ARM, BACKGROUND, CLASSES, END_EFFECTOR};
 use super::cluster::{
     ARM_LINKAGE_M, Cluster, END_EFFECTOR_LINKAGE_M, clusters_by_area, keep_largest_cluster,
 };
@@ -9,6 +9,7 @@ use super::error::SegmentError;
 use super::features::FEATURES;
 use super::grid::Grid;
 use super::thinned::Thinned;
+use super::told::Told;
 use super::upsample::upsample;
 use eyebolt_geometry::{DepthImage, PinholeCamera, RayTable};
 use eyebolt_net::models::{Architecture, Model};
@@ -21,6 +22,7 @@ pub struct Segmenter {
     executor: Cpu,
     grid: Grid,
     end_effector: Option<EndEffectorNet>,
+    tells_probability: bool,
     /// Of the last camera: it is mostly the same.
     rays: Option<(PinholeCamera, RayTable)>,
 }
@@ -36,11 +38,21 @@ pub struct Segmentation {
     pub label: Vec<u8>,
     /// The same by the network of whole frames alone.
     pub whole: Vec<u8>,
+    /// Of each pixel the probability of every class, by the network that looked from nearest, 0 where there is no depth; empty unless
+    /// [`Segmenter::with_probabilities`] asked for it.
+    pub probability: Vec<[f32; CLASSES.len()]>,
 }
 
 impl Segmentation {
-    fn new(of: &DepthImage, label: Vec<u8>, whole: Vec<u8>) -> Self {
-        Self { width: of.width() as usize, height: of.height() as usize, label, whole }
+    fn new(of: &DepthImage, told: Told, whole: Vec<u8>) -> Self {
+        let Told { label, probability } = told;
+        Self { width: of.width() as usize, height: of.height() as usize, label, whole, probability }
+    }
+
+    /// How likely the networks take it that pixel `at` is what its label says, 0 to 1; `None` where nobody asked, or there is no depth.
+    pub fn probability_of_label(&self, at: usize) -> Option<f32> {
+        let class = usize::from(*self.label.get(at)?);
+        self.probability.get(at)?.get(class).copied()
     }
 }
 
@@ -77,12 +89,24 @@ impl Segmenter {
         if !right {
             return other("classes", format!("{names:?} are not background, arm and end_effector"));
         }
-        Ok(Self { model, executor: Cpu::new(), grid, end_effector: None, rays: None })
+        Ok(Self {
+            model,
+            executor: Cpu::new(),
+            grid,
+            end_effector: None,
+            tells_probability: false,
+            rays: None,
+        })
     }
 
     /// With a network that looks at the end-effector from near.
     pub fn with_end_effector(self, net: EndEffectorNet) -> Self {
         Self { end_effector: Some(net), ..self }
+    }
+
+    /// Which also tells how likely each class is.
+    pub fn with_probabilities(self) -> Self {
+        Self { tells_probability: true, ..self }
     }
 
     /// Whether the end-effector is told apart.
@@ -100,16 +124,16 @@ impl Segmenter {
         depth: &DepthImage,
         camera: &PinholeCamera,
     ) -> Result<Segmentation, SegmentError> {
-        let (whole, table) = self.whole(depth, camera)?;
-        let mut label = whole.clone();
-        keep_largest_cluster(&mut label, depth, &table, ARM_LINKAGE_M, is_arm, BACKGROUND);
-        keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, is_hand, ARM);
+        let (mut told, table) = self.whole(depth, camera)?;
+        let whole = told.label.clone();
+        keep_largest_cluster(&mut told.label, depth, &table, ARM_LINKAGE_M, is_arm, BACKGROUND);
+        keep_largest_hand(&mut told.label, depth, &table);
         if let Some(net) = &mut self.end_effector {
-            net.refine(depth, camera, &table, &mut label)?;
-            keep_largest_cluster(&mut label, depth, &table, END_EFFECTOR_LINKAGE_M, is_hand, ARM);
+            net.refine(depth, camera, &table, &mut told)?;
+            keep_largest_hand(&mut told.label, depth, &table);
         }
         self.rays = Some((camera.clone(), table));
-        Ok(Segmentation::new(depth, label, whole))
+        Ok(Segmentation::new(depth, told, whole))
     }
 
     /// What else the labels may be than the `first`, which [`Self::segment`] has of the same image: with the end-effector elsewhere on the arm, or on something else that looks like a
@@ -141,16 +165,10 @@ impl Segmenter {
             for (cluster, place) in found.into_iter().take(most) {
                 let mut label = only(cluster, whole);
                 label.iter_mut().filter(|label| is_hand(**label)).for_each(|label| *label = ARM);
-                net.paint(depth, camera, place, &mut label)?;
-                keep_largest_cluster(
-                    &mut label,
-                    depth,
-                    &table,
-                    END_EFFECTOR_LINKAGE_M,
-                    is_hand,
-                    ARM,
-                );
-                labelled.push(Segmentation::new(depth, label, whole.clone()));
+                let mut told = Told { label, probability: first.probability.clone() };
+                net.paint(depth, camera, place, &mut told)?;
+                keep_largest_hand(&mut told.label, depth, &table);
+                labelled.push(Segmentation::new(depth, told, whole.clone()));
             }
         }
         self.rays = Some((camera.clone(), table));
@@ -165,19 +183,19 @@ impl Segmenter {
         }
     }
 
-    /// Labels by the network of whole frames alone, and the rays of the camera.
+    /// What the network of whole frames alone tells, and the rays of the camera.
     fn whole(
         &mut self,
         depth: &DepthImage,
         camera: &PinholeCamera,
-    ) -> Result<(Vec<u8>, RayTable), SegmentError> {
+    ) -> Result<(Told, RayTable), SegmentError> {
         let (found, size) = ((depth.width(), depth.height()), (camera.width(), camera.height()));
         if found != size {
             return Err(SegmentError::Size { found, camera: size });
         }
         let (width, height) = (depth.width() as usize, depth.height() as usize);
         let table = self.rays_of(camera);
-        let mut label = vec![UNKNOWN; width * height];
+        let mut told = Told::nothing(width * height, self.tells_probability);
         let image = Thinned::new(depth, camera, self.grid.columns());
         let rows: Vec<usize> = image.seen().collect();
         if !rows.is_empty() {
@@ -185,10 +203,15 @@ impl Segmenter {
             let Model { graph, parameters, .. } = &self.model;
             let outputs = self.executor.infer(graph, parameters, &batch)?;
             let all = (&image, rows.as_slice(), &outputs[0]);
-            upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut label);
+            upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut told);
         }
-        Ok((label, table))
+        Ok((told, table))
     }
+}
+
+/// Leaves of what is labelled the end-effector the largest connected part; the rest is the arm.
+fn keep_largest_hand(label: &mut [u8], depth: &DepthImage, rays: &RayTable) {
+    keep_largest_cluster(label, depth, rays, END_EFFECTOR_LINKAGE_M, is_hand, ARM);
 }
 
 /// The labels of a cluster of the arm, as if nothing else were the arm.

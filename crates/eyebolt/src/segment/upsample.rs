@@ -1,6 +1,8 @@
 //! From logits of a thinned image to labels of the full one.
 
+use super::classes::CLASSES;
 use super::thinned::Thinned;
+use super::told::Told;
 use eyebolt_geometry::DepthImage;
 use eyebolt_net::Matrix;
 use rayon::prelude::*;
@@ -11,16 +13,17 @@ const SAME_SURFACE: f32 = 0.01;
 /// What is left of its weight elsewhere: where no bin has the depth, the nearest ones speak.
 const ELSEWHERE: f32 = 1e-4;
 
-/// Writes to `labels`, of all pixels of `depth`, those in the columns and rows `part` and as deep as `depth_m`
+/// Writes to `told`, of all pixels of `depth`, those in the columns and rows `part` and as deep as `depth_m`
 /// says: the class of the largest logit between the four bins around, weighted
-/// by nearness in the image and in depth (joint bilateral upsampling: Kopf et al., SIGGRAPH 2007).
+/// by nearness in the image and in depth (joint bilateral upsampling: Kopf et al., SIGGRAPH 2007), and what the logits
+/// make of every class.
 /// `logits` has a row for each of `rows`, bins of `image`; where none of the four has one, nothing is written.
 pub fn upsample(
     depth: &DepthImage,
     (image, rows, logits): (&Thinned, &[usize], &Matrix),
     part: &[Range<usize>; 2],
     depth_m: &Range<f32>,
-    labels: &mut [u8],
+    told: &mut Told,
 ) {
     const NONE: u32 = u32::MAX;
     let mut row_of = vec![NONE; image.depth_m.len()];
@@ -28,10 +31,11 @@ pub fn upsample(
     let (width, step) = (depth.width() as usize, image.step as f32);
     let [columns, lines] = part;
     let classes = logits.channels();
-    let rows_of_image = labels.par_chunks_mut(width).zip(depth.depth_m().par_chunks(width));
+    let rows_of_image: Vec<_> = told.rows(width).collect();
+    let rows_of_image = rows_of_image.into_par_iter().zip(depth.depth_m().par_chunks(width));
     rows_of_image.enumerate().skip(lines.start).take(lines.len()).for_each_init(
         || vec![0.0_f32; classes],
-        |sums, (v, (labels, depths))| {
+        |sums, (v, ((labels, mut probabilities), depths))| {
             let (v0, part_v) = place(v - image.corner[1], step);
             let pixels = labels.iter_mut().zip(depths).enumerate();
             let pixels = pixels.skip(columns.start).take(columns.len());
@@ -57,6 +61,10 @@ pub fn upsample(
                 }
                 if total > 0.0 {
                     *label = largest(sums, *label);
+                    if let Some(probabilities) = &mut probabilities {
+                        sums.iter_mut().for_each(|sum| *sum /= total);
+                        probabilities[u] = softmax(sums);
+                    }
                 }
             }
         },
@@ -67,6 +75,14 @@ pub fn upsample(
 fn place(at: usize, step: f32) -> (i64, f32) {
     let x = (at as f32 + 0.5) / step - 0.5;
     (x.floor() as i64, x - x.floor())
+}
+
+fn softmax(logits: &[f32]) -> [f32; CLASSES.len()] {
+    let most = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let mut shares = [0.0; CLASSES.len()];
+    shares.iter_mut().zip(logits).for_each(|(share, logit)| *share = (logit - most).exp());
+    let total: f32 = shares.iter().sum();
+    shares.map(|share| share / total)
 }
 
 fn largest(sums: &[f32], of_none: u8) -> u8 {

@@ -2,7 +2,7 @@
 
 use crate::scene::{SHAPE, frames};
 use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod, Recognizer};
-use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter};
+use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter, Told};
 use eyebolt_geometry::RayTable;
 use eyebolt_net::models::Model;
 use nalgebra::Isometry3;
@@ -87,9 +87,10 @@ fn a_hand_is_found_along_its_arm() {
     let mut found = 0;
     for truth in PRESETS.into_iter().flat_map(frames) {
         let without = |label: &u8| if *label == END_EFFECTOR { ARM } else { *label };
-        let mut label: Vec<u8> = truth.label.iter().map(without).collect();
+        let mut told = Told::of(truth.label.iter().map(without).collect());
         let rays = RayTable::new(&truth.camera);
-        net.refine(&truth.depth, &truth.camera, &rays, &mut label).unwrap();
+        net.refine(&truth.depth, &truth.camera, &rays, &mut told).unwrap();
+        let label = told.label;
         let pairs = label.iter().zip(&truth.label);
         let both = pairs.filter(|pair| *pair.0 == END_EFFECTOR && *pair.1 == END_EFFECTOR).count();
         let count = |of: &[u8]| of.iter().filter(|label| **label == END_EFFECTOR).count();

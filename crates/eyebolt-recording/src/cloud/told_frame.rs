@@ -1,6 +1,7 @@
 //! Which frame the points of a cloud are in, which its message does not say.
 
 use crate::manifest::CloudFrame;
+use eyebolt_robot::Input;
 
 /// Share of the points that has to lie before the camera.
 const BEFORE: f64 = 0.99;
@@ -11,7 +12,7 @@ const WIDEST: f32 = 1.8;
 ///
 /// A camera sees what lies along its axis, z in the optical frame and x in the body's; few clouds
 /// lie along both.
-pub(super) fn frame_of(name: Option<&str>, points: &[[f32; 3]]) -> Result<CloudFrame, String> {
+pub(crate) fn frame_of(name: Option<&str>, points: &[[f32; 3]]) -> Result<CloudFrame, String> {
     let ahead = |axis: usize| {
         let seen = |p: &&[f32; 3]| {
             let [x, y, z] = **p;
@@ -38,6 +39,14 @@ pub(super) fn frame_of(name: Option<&str>, points: &[[f32; 3]]) -> Result<CloudF
             Err("the points lie before no camera: neither along z nor along x".to_owned())
         }
     }
+}
+
+/// What to do where nobody can tell the frame.
+pub(crate) fn frame_remedy() -> String {
+    format!(
+        "Give {}: optical (x right, y down, z forward) or body (x forward, y left, z up)",
+        Input::CLOUD_FRAME
+    )
 }
 
 #[cfg(test)]
