@@ -1,5 +1,7 @@
 //! `eyebolt pose`.
 
+mod finder;
+mod follow;
 mod lines;
 mod mcap;
 
@@ -9,11 +11,10 @@ use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod, Recognizer};
+use eyebolt::pose::PoseMethod;
 use eyebolt::progress::Progress;
-use eyebolt::record::{FrameImage, FrameImages};
-use eyebolt_recording::Recording;
-use eyebolt_robot::JointPositions;
+use eyebolt_recording::{OPTICAL_FRAME, Recording, counted};
+use finder::Finder;
 use lines::Line;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -39,6 +40,9 @@ pub struct Arguments {
     /// opening is found
     #[arg(long)]
     joint_states: bool,
+    /// Go on with frames as they come into an MCAP that is still being written, until it ends or Ctrl-C
+    #[arg(long)]
+    follow: bool,
     /// A line of JSON for each frame instead of text
     #[arg(long)]
     json: bool,
@@ -68,31 +72,36 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     if let Some(path) = &arguments.output {
         output::refuse_existing(path, arguments.force)?;
     }
-    let recording = named(arguments)?;
-    let bar = Counting::new()?;
-    let lines = of(arguments, &recording, &bar, &mut |line| {
-        if arguments.json {
-            output::say(&line.json());
+    let at_once = arguments.json || arguments.follow;
+    let mut tell = |line: &Line| {
+        if at_once {
+            output::say(&if arguments.json { line.json() } else { line.text() });
         }
-    })?;
-    drop(bar);
-    if !arguments.json {
+    };
+    let (lines, frame_id) = if arguments.follow {
+        follow::of(arguments, &mut tell)?
+    } else {
+        let recording = named(arguments)?;
+        let lines = of(arguments, &recording, &Counting::new()?, &mut tell)?;
+        (lines, recording.camera_frame_id().unwrap_or(OPTICAL_FRAME).to_owned())
+    };
+    if !at_once {
         lines.iter().for_each(|line| output::say(&line.text()));
     }
     if let Some(path) = &arguments.output {
-        write(path, &recording, &lines, arguments.force)?;
+        write(path, &lines, &frame_id, arguments.force)?;
     }
     let answered = lines.iter().filter(|line| line.answered).count();
     if !arguments.json {
-        output::say(&format!("{answered} of {} frames answered", lines.len()));
+        output::say(&format!("{answered} of {} answered", counted(lines.len(), "frame")));
     }
     Ok(if answered == 0 { Ending::Refused } else { Ending::Done })
 }
 
-fn write(path: &Path, recording: &Recording<'_>, lines: &[Line], force: bool) -> Result<()> {
+fn write(path: &Path, lines: &[Line], frame_id: &str, force: bool) -> Result<()> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) {
         let filled = |file: &mut File| {
-            mcap::write(recording, lines, file).map_err(|error| output::named(error, path))
+            mcap::write(lines, frame_id, file).map_err(|error| output::named(error, path))
         };
         return output::write_through(path, force, filled);
     }
@@ -113,47 +122,19 @@ pub(crate) fn of(
     each: &mut dyn FnMut(&Line),
 ) -> Result<Vec<Line>> {
     let path = &arguments.recording.recording;
-    let names = recording.frame_names().to_vec();
+    let names = recording.frame_names();
     if names.is_empty() {
         bail!("{}: there is no frame in it", path.display());
     }
     let arm = arguments.robot.arm(path, recording)?;
-    let shape = EndEffectorShape::of(&arm, &arguments.cache.open())?;
-    let mut recognizer = Recognizer::open(&arguments.model, shape.clone())?;
-    let mut estimator = PoseEstimator::open(&arguments.model, shape, arguments.method)?;
-    estimator.refines = !arguments.no_icp;
-    let images = FrameImages::of(recording.source())?;
+    let mut finder = Finder::new(arguments, &arm, recording)?;
     let mut lines = Vec::with_capacity(names.len());
-    for (index, name) in names.iter().enumerate() {
+    for index in 0..names.len() {
         progress.advance(index, names.len())?;
-        let Some(FrameImage { depth, .. }) = images.read(recording.source(), index)? else {
-            lines.push(Line::damaged(name, arguments.method));
-            continue;
-        };
-        let joints = joints(arguments, recording, index)?;
-        let posture = joints.as_ref().map(|joints| estimator.shape().posture(joints));
-        let seen = recognizer.recognize(&depth, images.camera(), posture.as_slice())?;
-        let found = match (arguments.method, arguments.no_icp) {
-            (PoseMethod::Fused, false) => seen.answer,
-            _ => {
-                let label = &seen.segmentation.label;
-                estimator.estimate(&depth, images.camera(), label, joints.as_ref())?
-            }
-        };
-        let turn = images.optical_from_camera();
-        let line = Line::of(name, arguments.method, joints.is_some(), found, turn);
+        let line = finder.line(recording, index)?;
         each(&line);
         lines.push(line);
     }
     progress.advance(names.len(), names.len())?;
     Ok(lines)
-}
-
-fn joints(
-    arguments: &Arguments,
-    recording: &Recording<'_>,
-    index: usize,
-) -> Result<Option<JointPositions>> {
-    let read = || recording.source().read_joints(index);
-    Ok(arguments.joint_states.then(read).transpose()?)
 }

@@ -2,7 +2,7 @@
 
 use super::arguments::{Arguments, FEW, check_base};
 use super::teller::{Ended, Teller};
-use crate::ending::Ending;
+use crate::ending::{Ending, causes};
 use crate::front::Terminal;
 use crate::output;
 use crate::progress::Interrupt;
@@ -108,7 +108,7 @@ impl<'a> Ears<'a> {
             let recording = match self.recording(&heard) {
                 Ok(recording) => recording,
                 Err(error) => {
-                    output::complain(&format!("note: {error:#}"));
+                    output::complain(&format!("note: {}", causes(&error)));
                     heard.clear();
                     continue;
                 }
@@ -132,7 +132,7 @@ impl<'a> Ears<'a> {
             match self.recording(&messages) {
                 Ok(recording) => return self.arguments.robot.noted(recording, arm).map(Some),
                 // One rest of many.
-                Err(error) => output::complain(&format!("note: {error:#}")),
+                Err(error) => output::complain(&format!("note: {}", causes(&error))),
             }
         }
     }

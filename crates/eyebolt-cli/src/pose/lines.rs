@@ -9,6 +9,9 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 pub struct Line {
     frame: String,
+    /// When the frame was taken, nanoseconds.
+    #[serde(skip)]
+    pub stamp_ns: i64,
     pub answered: bool,
     camera_from_end_effector: Option<Pose>,
     expected_error: Option<Error>,
@@ -36,13 +39,18 @@ struct Error {
 
 impl Line {
     /// Of a frame that cannot be read.
-    pub fn damaged(frame: &str, method: PoseMethod) -> Self {
-        Self::none(frame, method, false, "the frame is damaged")
+    pub fn damaged(frame: (&str, i64), method: PoseMethod) -> Self {
+        Self::none(frame, (method, false), "the frame is damaged")
     }
 
-    fn none(frame: &str, method: PoseMethod, joint_states: bool, reason: &str) -> Self {
+    fn none(
+        (frame, stamp_ns): (&str, i64),
+        (method, joint_states): (PoseMethod, bool),
+        reason: &str,
+    ) -> Self {
         Self {
             frame: frame.to_owned(),
+            stamp_ns,
             answered: false,
             camera_from_end_effector: None,
             expected_error: None,
@@ -53,21 +61,15 @@ impl Line {
         }
     }
 
-    /// Of what was found in a frame, by a camera that is turned against the recording's.
+    /// Of what was found in a frame, which has a name and a stamp, by a method and with joint states or without, by a camera that is turned against the recording's.
     pub fn of(
-        frame: &str,
-        method: PoseMethod,
-        joint_states: bool,
+        frame: (&str, i64),
+        how: (PoseMethod, bool),
         found: Option<PoseAnswer>,
         optical_from_camera: &Transform<Camera, Camera>,
     ) -> Self {
         let Some(found) = found else {
-            return Self::none(
-                frame,
-                method,
-                joint_states,
-                "too little of the end-effector is in view",
-            );
+            return Self::none(frame, how, "too little of the end-effector is in view");
         };
         let pose = |of: &Transform<Camera, EndEffector>| {
             let of = *optical_from_camera * *of;
@@ -76,13 +78,14 @@ impl Line {
         let error =
             |ExpectedError { translation_mm, rotation_deg }| Error { translation_mm, rotation_deg };
         Self {
-            frame: frame.to_owned(),
+            frame: frame.0.to_owned(),
+            stamp_ns: frame.1,
             answered: found.refusal.is_none(),
             camera_from_end_effector: Some(pose(&found.camera_from_end_effector)),
             expected_error: found.expected_error.map(error),
             alternatives: found.alternatives().map(|it| pose(&it)).collect(),
-            method: method.name(),
-            joint_states,
+            method: how.0.name(),
+            joint_states: how.1,
             reason: found.refusal.map(|refusal| refusal.to_string()),
         }
     }

@@ -1,5 +1,6 @@
 //! Who tells which pixels are what.
 
+use crate::ending::causes;
 use crate::output;
 use anyhow::Result;
 use eyebolt::pose::{EndEffectorShape, PoseError, RecognizeError, Recognizer};
@@ -33,7 +34,8 @@ impl Teller {
             Ok(shape) => shape,
             Err(error) => {
                 output::complain(&format!(
-                    "note: the labels are the networks' alone, since the end-effector's shape is not known: {error:#}"
+                    "note: the labels are the networks' alone, since the end-effector's shape is not known: {}",
+                    causes(&error)
                 ));
                 return Ok(alone);
             }

@@ -1,11 +1,14 @@
 //! `eyebolt pose`, by the networks that come with the program.
 
 use crate::desk::{Desk, text};
-use crate::program::{CACHE, Ended, eyebolt};
+use crate::program::{CACHE, Ended, RECORDING, eyebolt};
 use crate::simulate::SIMULATED;
+use eyebolt_recording::SessionWriter;
 use serde_json::Value;
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 fn models(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name)
@@ -88,6 +91,47 @@ fn a_cloud_has_the_pose_that_its_image_has() {
         }
     }
     assert!(both >= 2, "{both} of 5");
+}
+
+/// A recording that is written while it is read: the first poses come before the last frames do, and in the end there are those of all.
+#[test]
+fn a_recording_that_grows_is_followed() {
+    let desk = Desk::new();
+    let growing = desk.file("growing.mcap");
+    let bytes = fs::read(&*SIMULATED).unwrap();
+    let messages: Vec<_> =
+        mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap()).collect();
+    let mut session = SessionWriter::new(fs::File::create(&growing).unwrap()).unwrap();
+    let mut write = |messages: &[mcap::Message<'_>]| {
+        for message in messages {
+            let kind = &message.channel.schema.as_ref().unwrap().name;
+            let time = i64::try_from(message.log_time).unwrap();
+            session.write(&message.channel.topic, kind, time, &message.data).unwrap();
+        }
+        session.flush().unwrap();
+    };
+    let (first, last) = messages.split_at(2 * messages.len() / 3);
+    write(first);
+    let model = models("shackle");
+    let topic = "/camera/depth/image_raw";
+    let words = ["pose", text(&growing), "--follow", "--json", "--robot", "shackle"];
+    let words = [&words[..], &["--depth-topic", topic]].concat();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_eyebolt"))
+        .args([&words[..], &["--model", text(&model), "--cache", text(&CACHE)]].concat())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let begun = lines.next().unwrap().unwrap();
+    write(last);
+    session.finish().unwrap();
+    let all: Vec<String> = std::iter::once(begun).chain(lines.map(Result::unwrap)).collect();
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert_eq!(all.len(), 15);
+    let answered = all.iter().filter(|line| line.contains("\"answered\":true")).count();
+    assert!(answered >= 10, "{all:?}");
+    eyebolt(&["pose", text(&RECORDING), "--follow", "--model", text(&model)])
+        .assert_error(1, &["--follow", "MCAP"]);
 }
 
 #[test]
