@@ -1,70 +1,23 @@
 //! `eyebolt pose`.
 
+mod arguments;
 mod finder;
 mod follow;
 mod lines;
 mod mcap;
 
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
+use crate::inputs::use_threads;
 use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use eyebolt::pose::PoseMethod;
+pub use arguments::Arguments;
 use eyebolt::progress::Progress;
 use eyebolt_recording::{OPTICAL_FRAME, Recording, counted};
 use finder::Finder;
 use lines::Line;
 use std::fs::File;
-use std::path::{Path, PathBuf};
-
-/// Options of `eyebolt pose`.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {
-    #[command(flatten)]
-    recording: RecordingArguments,
-    #[command(flatten)]
-    robot: RobotArguments,
-    /// Folder of a model that eyebolt train made for this end-effector, such as models/panda
-    #[arg(long, value_name = "FOLDER")]
-    model: PathBuf,
-    /// How the pose comes about: by rotation and translation, by matched points, or by both and what the
-    /// image supports
-    #[arg(long, default_value = "fused", value_parser = method())]
-    method: PoseMethod,
-    /// Leave the pose as the networks have it
-    #[arg(long)]
-    no_icp: bool,
-    /// Take the positions of fingers from the recording's joint states; otherwise the likeliest
-    /// opening is found
-    #[arg(long)]
-    joint_states: bool,
-    /// Go on with frames as they come into an MCAP that is still being written, until it ends or Ctrl-C
-    #[arg(long)]
-    follow: bool,
-    /// A line of JSON for each frame instead of text
-    #[arg(long)]
-    json: bool,
-    /// Write the lines of JSON to this file, too; if it ends in .mcap, the poses as messages for Foxglove and RViz
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Replace an existing file
-    #[arg(long)]
-    force: bool,
-    /// Threads to use; otherwise one for each core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    #[command(flatten)]
-    cache: CacheArguments,
-}
-
-fn method() -> impl TypedValueParser<Value = PoseMethod> {
-    PossibleValuesParser::new(PoseMethod::ALL.map(|(name, _)| name)).try_map(|name| {
-        let known = PoseMethod::ALL.into_iter().find(|(known, _)| *known == name);
-        known.map(|(_, method)| method).ok_or("not a method")
-    })
-}
+use std::path::Path;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Ending> {

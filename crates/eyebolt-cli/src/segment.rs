@@ -5,6 +5,7 @@ mod destination;
 mod folder;
 mod mcap;
 mod npz;
+mod segmented;
 mod teller;
 
 use crate::ending::Ending;
@@ -15,10 +16,11 @@ use anyhow::{Result, bail};
 use cloud::CloudForm;
 use destination::Destination;
 use eyebolt::progress::Progress;
-use eyebolt::record::{FrameImage, FrameImages};
+use eyebolt::record::FrameImages;
 use eyebolt::report::classes;
-use eyebolt::segment::{ARM, END_EFFECTOR, Segmentation};
+use eyebolt::segment::{ARM, END_EFFECTOR};
 use eyebolt_recording::{Recording, counted};
+pub(crate) use segmented::Segmented;
 use std::path::PathBuf;
 use teller::Teller;
 
@@ -61,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let recording = named(arguments)?;
     let names = recording.frame_names();
-    let to = Destination::of(arguments, names)?;
+    let to = Destination::of(&arguments.output, arguments.clouds, names)?;
     to.refuse_existing(names, arguments.force)?;
     names
         .iter()
@@ -126,16 +128,6 @@ impl Seen {
             self.arm
         )
     }
-}
-
-/// A frame whose pixels are labelled.
-pub(crate) struct Segmented<'a> {
-    /// Which frame of the recording it is.
-    pub(crate) index: usize,
-    pub(crate) name: &'a str,
-    images: &'a FrameImages,
-    pub(crate) image: FrameImage,
-    pub(crate) found: Segmentation,
 }
 
 /// The recording that `arguments` name.

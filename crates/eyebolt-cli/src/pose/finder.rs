@@ -1,6 +1,6 @@
 //! Poses in one frame after the other.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::lines::Line;
 use anyhow::Result;
 use eyebolt::pose::{EndEffectorShape, PoseEstimator, PoseMethod, Recognizer};

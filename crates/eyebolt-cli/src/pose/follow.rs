@@ -1,6 +1,6 @@
 //! Poses in a recording that is still being made.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::finder::Finder;
 use super::lines::Line;
 use crate::ending::causes;

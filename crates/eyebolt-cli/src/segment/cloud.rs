@@ -1,6 +1,6 @@
 //! Labelled points for other programs.
 
-use super::Segmented;
+use super::segmented::Segmented;
 use eyebolt::segment::{ARM, END_EFFECTOR, UNKNOWN};
 
 /// A form of cloud.

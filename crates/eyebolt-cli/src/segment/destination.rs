@@ -4,18 +4,12 @@ use super::cloud::{CloudForm, Points};
 use super::folder::FolderSink;
 use super::mcap::McapSink;
 use super::npz::NpzSink;
-use super::{Arguments, Segmented};
+use super::segmented::{Segmented, Sink};
 use crate::output;
 use anyhow::{Result, bail};
 use eyebolt_recording::Recording;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// Takes labelled frames, in their order.
-pub(super) trait Sink {
-    /// Takes one.
-    fn frame(&mut self, frame: &Segmented<'_>) -> Result<()>;
-}
 
 /// Where labels go, by the name that was given.
 pub(super) enum Destination {
@@ -30,18 +24,18 @@ pub(super) enum Destination {
 }
 
 impl Destination {
-    /// What `arguments` name, for frames called `names`.
-    pub(super) fn of(arguments: &Arguments, names: &[String]) -> Result<Self> {
-        let path = arguments.output.clone();
+    /// What `path` names, with `clouds` beside the labels, for frames called `names`.
+    pub(super) fn of(path: &Path, clouds: Option<CloudForm>, names: &[String]) -> Result<Self> {
+        let path = path.to_owned();
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let cloud = match ending.to_ascii_lowercase().as_str() {
             "mcap" => None,
             "npz" => None,
             "ply" => Some(CloudForm::Ply),
             "pcd" => Some(CloudForm::Pcd),
-            _ => return Ok(Self::Folder(path, arguments.clouds)),
+            _ => return Ok(Self::Folder(path, clouds)),
         };
-        if arguments.clouds.is_some() {
+        if clouds.is_some() {
             bail!(
                 "{}: --output: --clouds writes into a folder. Name a folder, or leave --clouds out",
                 path.display()

@@ -1,8 +1,7 @@
 //! Labels as a folder of files.
 
-use super::Segmented;
 use super::cloud::{CloudForm, Points};
-use super::destination::Sink;
+use super::segmented::{Segmented, Sink};
 use crate::output;
 use anyhow::Result;
 use eyebolt_recording::write_npy;

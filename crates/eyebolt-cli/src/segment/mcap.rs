@@ -1,8 +1,7 @@
 //! Labelled points as messages, for viewers.
 
-use super::Segmented;
 use super::cloud::Points;
-use super::destination::Sink;
+use super::segmented::{Segmented, Sink};
 use crate::output;
 use anyhow::Result;
 use eyebolt_recording::{

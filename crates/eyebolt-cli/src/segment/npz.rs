@@ -1,7 +1,6 @@
 //! Labels of all frames as arrays, for NumPy.
 
-use super::Segmented;
-use super::destination::Sink;
+use super::segmented::{Segmented, Sink};
 use anyhow::Result;
 use eyebolt::record::FrameImages;
 use eyebolt::segment::UNKNOWN;
