@@ -32,6 +32,7 @@ pub(crate) use joint_state::JointStateMessage;
 pub use marker_array::{Marker, MarkerShape, markers_message};
 pub use painted_cloud::{PaintedCloud, PointValues};
 pub use pose::UncertainPose;
+pub(crate) use marker_array::{MarkerFrame, placed_markers_message};
 pub(crate) use string::text;
 pub use string::text_message;
 pub(crate) use transforms::transforms;
