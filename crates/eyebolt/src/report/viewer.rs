@@ -132,7 +132,7 @@ impl<'a> Viewer<'a> {
         let links = self.observations.arm.links().iter().enumerate();
         links
             .map(|(index, link)| (index, link.name.as_str()))
-            .filter(|(_, name)| *name != self.base())
+            .filter(move |(_, name)| *name != self.base())
     }
 
     /// The links' meshes by the frame that they are in.
