@@ -21,7 +21,7 @@ pub use npy::write_npy;
 pub use recording_writer::{RecordingInfo, RecordingWriter};
 pub use robot::WriteRobot;
 pub use session::SessionWriter;
-pub use viewer::{Viewed, ViewedPoint, ViewerWriter, viewer_layout};
+pub use viewer::{Viewed, ViewerWriter, viewer_layout};
 
 use crate::own_metadata;
 use crate::progress::Progress;

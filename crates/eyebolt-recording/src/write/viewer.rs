@@ -5,4 +5,4 @@ mod topics;
 mod writer;
 
 pub use layout::viewer_layout;
-pub use writer::{Viewed, ViewedPoint, ViewerWriter};
+pub use writer::{Viewed, ViewerWriter};

@@ -10,7 +10,7 @@ use crate::observations::{Configuration, ImageSource, Observations};
 use crate::pipeline::Outcome;
 use eyebolt_geometry::{Base, Camera, CoordinateFrame, Transform};
 use eyebolt_recording::{
-    StaticTransform, Viewed, ViewedPoint, ViewerWriter, WriteError, viewer_layout,
+    PaintedCloud, PointValues, StaticTransform, Viewed, ViewerWriter, WriteError, viewer_layout,
 };
 use eyebolt_registration::{Label, Posture, Refinement};
 use eyebolt_render::{Raster, contour};
@@ -102,10 +102,16 @@ impl<'a> Viewer<'a> {
                 break;
             };
             let png = pictures.get(index).map(Picture::encode_small_png);
+            let Some(seen) = seen.get(index) else { break };
+            let (points_m, rgb) = (self.in_camera(seen), colors(seen));
             writer.configuration(&Viewed {
                 stamp_ns: *stamp_ns,
                 base_from_link: &self.transforms(posture),
-                points: &seen.get(index).map(|seen| self.points(seen)).unwrap_or_default(),
+                points: PaintedCloud {
+                    points_m: &points_m,
+                    rgb: &rgb,
+                    values: &[("residual_mm", PointValues::Real(&seen.behind_mm))],
+                },
                 outline_m: &self.outline(posture, &mut raster),
                 caption: &self.caption(index, configuration),
                 picture_png: png.as_deref(),
@@ -163,19 +169,10 @@ impl<'a> Viewer<'a> {
         placed.map(|(name, pose)| named(self.base(), name, pose)).collect()
     }
 
-    fn points(&self, seen: &Points) -> Vec<ViewedPoint> {
+    /// Points of the optical frame.
+    fn in_camera(&self, seen: &Points) -> Vec<[f32; 3]> {
         let camera_from_base = self.camera_from_base.isometry().cast::<f32>();
-        let points = seen.points.iter().zip(&seen.labels).zip(&seen.behind_mm);
-        points
-            .map(|((point, label), behind_mm)| {
-                let on_arm = *label != Label::Background && !behind_mm.is_nan();
-                ViewedPoint {
-                    in_camera_m: (camera_from_base * point).coords.into(),
-                    rgb: if on_arm { residual::color(*behind_mm) } else { GREY },
-                    residual_mm: *behind_mm,
-                }
-            })
-            .collect()
+        seen.points.iter().map(|point| (camera_from_base * point).coords.into()).collect()
     }
 
     /// The drawn arm's contour on its surface: at each place a piece of it, one pixel long.
@@ -204,6 +201,17 @@ impl<'a> Viewer<'a> {
         }
         text
     }
+}
+
+/// Of each point: grey for what is not the arm.
+fn colors(seen: &Points) -> Vec<Rgb> {
+    let told = seen.labels.iter().zip(&seen.behind_mm);
+    told.map(|(label, behind_mm)| match label {
+        Label::Background => GREY,
+        _ if behind_mm.is_nan() => GREY,
+        _ => residual::color(*behind_mm),
+    })
+    .collect()
 }
 
 /// Whether the axes of the images are turned in the frame of the points, or the camera is made up.

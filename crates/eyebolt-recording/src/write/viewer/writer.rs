@@ -3,7 +3,7 @@
 use super::topics::{CAMERA_INFO, CAPTION, OUTLINE, OVERLAY, POINTS};
 use crate::camera_info::camera_info_message;
 use crate::message::{
-    CloudMessage, CompressedImageMessage, Header, Marker, MarkerFrame, MarkerShape, PointField,
+    CompressedImageMessage, Header, Marker, MarkerFrame, MarkerShape, PaintedCloud,
     StaticTransform, placed_markers_message, types, write_transforms,
 };
 use crate::write::definitions::{ROBOT, TF, TF_STATIC};
@@ -19,17 +19,6 @@ const OUTLINE_RGBA: [f32; 4] = [0.16, 1.0, 0.27, 1.0];
 const OUTLINE_M: f64 = 0.002;
 const LETTERS_M: f64 = 0.04;
 
-/// A point that the camera saw.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ViewedPoint {
-    /// Optical frame, metres.
-    pub in_camera_m: [f32; 3],
-    /// Red, green, blue.
-    pub rgb: [u8; 3],
-    /// How far it lies behind the arm's surface, millimetres; NaN where that is not near.
-    pub residual_mm: f32,
-}
-
 /// One configuration as a viewer shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Viewed<'a> {
@@ -37,8 +26,8 @@ pub struct Viewed<'a> {
     pub stamp_ns: i64,
     /// Where the links are, each below the base.
     pub base_from_link: &'a [StaticTransform],
-    /// What the camera saw.
-    pub points: &'a [ViewedPoint],
+    /// What the camera saw, optical frame, in colours that tell how far it lies from the arm.
+    pub points: PaintedCloud<'a>,
     /// Ends of the pieces that the posed arm's outline is made of, optical frame, metres.
     pub outline_m: &'a [[[f32; 3]; 2]],
     /// What to write beside it.
@@ -48,8 +37,8 @@ pub struct Viewed<'a> {
 }
 
 /// Writes a calibration for Foxglove, Lichtblick or, by way of `ros2 bag play`, RViz, as MCAP with ROS 2 messages:
-/// transforms, the robot as triangles in the frames of its links, and for each configuration its points (with the fields
-/// `rgb` and `residual_mm`), outline, caption and picture. No mesh file or description is needed to look at it. The same
+/// transforms, the robot as triangles in the frames of its links, and for each configuration its points, outline, caption
+/// and picture. No mesh file or description is needed to look at it. The same
 /// calls write the same bytes.
 ///
 /// Viewers interpolate transforms, but an arm that was seen at rest did not glide: each posture is told again right before
@@ -135,7 +124,7 @@ impl<W: Write + Seek> ViewerWriter<W> {
             let data = camera_info_message(camera, self.header(stamp_ns)).write();
             self.writer.write(CAMERA_INFO, types::CAMERA_INFO, stamp_ns, &data)?;
         }
-        let points = cloud(self.header(stamp_ns), viewed.points);
+        let points = viewed.points.message(&self.camera_frame_id, stamp_ns);
         self.writer.write(POINTS, types::CLOUD, stamp_ns, &points)?;
         let shape =
             MarkerShape::Segments { ends_m: viewed.outline_m.to_vec(), thickness_m: OUTLINE_M };
@@ -193,32 +182,4 @@ impl<W: Write + Seek> ViewerWriter<W> {
         let data = placed_markers_message("eyebolt", std::iter::once((frame, marker)));
         self.writer.write(topic, types::MARKERS, stamp_ns, &data)
     }
-}
-
-/// x, y, z, `rgb` as PCL packs it, and `residual_mm`.
-fn cloud(header: Header<'_>, points: &[ViewedPoint]) -> Vec<u8> {
-    const POINT: u32 = 20;
-    const NAMES: [&str; 5] = ["x", "y", "z", "rgb", "residual_mm"];
-    let fields = NAMES.iter().zip((0..).step_by(4));
-    let fields = fields.map(|(name, offset)| PointField { name, offset, datatype: 7, count: 1 });
-    let mut data = Vec::with_capacity(POINT as usize * points.len());
-    for point in points {
-        let [r, g, b] = point.rgb;
-        data.extend(point.in_camera_m.iter().flat_map(|value| value.to_le_bytes()));
-        data.extend([b, g, r, 0]);
-        data.extend(point.residual_mm.to_le_bytes());
-    }
-    let width = u32::try_from(points.len()).unwrap_or(u32::MAX);
-    CloudMessage {
-        header,
-        height: 1,
-        width,
-        fields: fields.collect(),
-        big_endian: false,
-        point_step: POINT,
-        row_step: width.saturating_mul(POINT),
-        data: &data,
-        is_dense: true,
-    }
-    .write()
 }
