@@ -73,7 +73,7 @@ impl FrameSource for NotedJoints<'_> {
     }
 
     fn stamp_ns(&self, index: usize) -> Option<i64> {
-        self.recording.stamp_ns(index)
+        self.recording.source().stamp_ns(index)
     }
 
     fn robot(&self) -> &RobotSection {

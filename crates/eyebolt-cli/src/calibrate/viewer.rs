@@ -84,12 +84,12 @@ fn layout_path(path: &Path) -> PathBuf {
     path.with_extension("layout.json")
 }
 
-/// When the first frame of each configuration was taken, where the recording tells.
+/// When the first frame of each configuration was taken.
 pub(super) fn stamps(recording: &Recording<'_>, outcome: &Outcome) -> Option<Vec<i64>> {
     let names = recording.frame_names();
     let stamp_ns = |configuration: &Configuration| {
         let first = configuration.frames.first()?;
-        recording.stamp_ns(names.iter().position(|name| name == first)?)
+        Some(recording.stamp_ns(names.iter().position(|name| name == first)?))
     };
     outcome.observations.as_ref()?.configurations.iter().map(stamp_ns).collect()
 }

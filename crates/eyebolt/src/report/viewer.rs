@@ -10,7 +10,8 @@ use crate::observations::{Configuration, ImageSource, Observations};
 use crate::pipeline::Outcome;
 use eyebolt_geometry::{Base, Camera, CoordinateFrame, Transform};
 use eyebolt_recording::{
-    PaintedCloud, PointValues, StaticTransform, Viewed, ViewerWriter, WriteError, viewer_layout,
+    OPTICAL_FRAME, PaintedCloud, PointValues, StaticTransform, Viewed, ViewerWriter, WriteError,
+    viewer_layout,
 };
 use eyebolt_registration::{Label, Posture, Refinement};
 use eyebolt_render::{Raster, contour};
@@ -28,8 +29,6 @@ const ABOVE_M: f64 = 0.5;
 const AWAY: f64 = 1.6;
 /// Images whose axes are turned by less show what their optical frame would: a pixel of a fine camera.
 const TURNED_RAD: f64 = 1e-3;
-/// The optical frame of recordings that name none.
-const OPTICAL_FRAME: &str = "camera_depth_optical_frame";
 /// Between configurations whose times nobody knows.
 const STEP_NS: i64 = 1_000_000_000;
 /// Stamps are of 32 bits of seconds, and hold a little longer.
