@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Builds the wheel, installs it where nothing of the checkout is, and tests it there.
 #
-#   python/wheel.sh [--build-only] FOLDER      FOLDER: where the wheel goes
+#   python/wheel.sh [--build-only] [--profile dev] FOLDER      FOLDER: where the wheel goes
+#
+# The profile is that of cargo: release is what people install; dev is optimised less and has what other tests built.
 #
 #   EYEBOLT_CI_CACHE    where Python's packages stay from one run to the next
 #   CARGO_TARGET_DIR    where the build stays
@@ -15,10 +17,15 @@ tools=(maturin==1.16.0)
 tests=(-r "$root/python/tests/requirements.txt")
 
 build_only=0
-if [[ "${1:-}" == --build-only ]]; then
-    build_only=1
+profile=release
+while [[ "${1:-}" == --* ]]; do
+    case $1 in
+        --build-only) build_only=1 ;;
+        --profile) profile=${2:?"name a profile of cargo: dev or release"} && shift ;;
+        *) echo "$1 is not known: see the head of this file" && exit 2 ;;
+    esac
     shift
-fi
+done
 wheels=${1:?"name the folder that the wheel goes to"}
 
 # A venv at $1 with the packages that follow; kept by their names, and by what the files say that they are in.
@@ -39,7 +46,7 @@ fi
 mkdir -p "$wheels"
 # Only the wheel that is built now.
 rm -f "$wheels"/eyebolt-*.whl
-"$cache/tools/bin/maturin" build --release --locked --manifest-path "$root/crates/eyebolt-py/Cargo.toml" --out "$wheels"
+"$cache/tools/bin/maturin" build --profile "$profile" --locked --manifest-path "$root/crates/eyebolt-py/Cargo.toml" --out "$wheels"
 if ((build_only)); then exit 0; fi
 
 if ! venv "$cache/tests" "${tests[@]}"; then

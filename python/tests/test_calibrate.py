@@ -93,6 +93,11 @@ def test_files(calibration: eyebolt.Calibration, tmp_path: Path) -> None:
     page = calibration.report(tmp_path / "report.html")
     assert page.startswith("<!DOCTYPE html>") or page.startswith("<!doctype html>")
     assert (tmp_path / "report.html").read_text() == page
+    layout = calibration.viewer(tmp_path / "viewer.mcap")
+    assert layout == tmp_path / "viewer.layout.json" and "configById" in json.loads(layout.read_text())
+    assert (tmp_path / "viewer.mcap").read_bytes().startswith(b"\x89MCAP")
+    with pytest.raises(eyebolt.Error, match="`force`"):
+        calibration.viewer(tmp_path / "viewer.mcap")
     pictures = calibration.overlays()
     assert len(pictures) == 5
     assert {picture.shape for picture in pictures.values()} == {(480, 640, 3)}

@@ -12,7 +12,7 @@ from eyebolt._options import BagOptions, known
 from eyebolt._simulation import SimulationOptions
 
 # What writes files or prints in the program is returned here.
-OUTPUT = {"output", "force", "json", "report", "save_overlay", "timing", "overlay", "clouds", "csv", "help", "verbose"}
+OUTPUT = {"output", "force", "json", "report", "save_overlay", "viewer_mcap", "timing", "overlay", "clouds", "csv", "help", "verbose"}
 # Markers have an answer of their own, which is the program's alone.
 MARKERS = {"marker", "eye_in_hand", "marker_only"}
 # Arguments that stand for recordings.

@@ -3,6 +3,7 @@
 pub mod learned;
 mod limits;
 mod marker;
+mod viewer;
 mod way;
 
 use crate::ending::Ending;
@@ -24,6 +25,7 @@ use eyebolt_recording::Recording;
 use learned::LearnedArguments;
 pub use limits::LimitArguments;
 use std::path::{Path, PathBuf};
+pub(crate) use viewer::bytes as viewer_bytes;
 #[cfg(feature = "live")]
 pub(crate) use way::MOST_CONFIGURATIONS;
 pub use way::WayArguments;
@@ -48,6 +50,10 @@ pub struct Arguments {
     /// pictures, and the clouds with the robot to turn about
     #[arg(long, value_name = "HTML")]
     report: Option<PathBuf>,
+    /// Write what Foxglove, Lichtblick and (by `ros2 bag play`) RViz show: the posed robot, points coloured by how far they lie
+    /// from it, outlines and transforms; a layout for the first two goes beside it, to *.layout.json
+    #[arg(long, value_name = "MCAP")]
+    viewer_mcap: Option<PathBuf>,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -77,6 +83,7 @@ impl Arguments {
             way,
             save_overlay: None,
             report,
+            viewer_mcap: None,
             force,
             threads: None,
             timing: false,
@@ -98,6 +105,10 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     if let Some(report) = &arguments.report {
         check_report(report, &destination, arguments.force)?;
     }
+    if let Some(viewer) = &arguments.viewer_mcap {
+        let source = &arguments.recording.recording;
+        viewer::check(viewer, source, &recording, &destination, arguments.force)?;
+    }
     let arm = arguments.robot.arm(&arguments.recording.recording, &recording)?;
     let recording = arguments.robot.noted(recording, &arm)?;
     let request = arguments.way.request(&recording, &arm);
@@ -118,18 +129,20 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     let trusted = outcome.calibration.verdict == Verdict::Trusted;
     let path = destination.write(trusted, answer.to_json().as_bytes())?;
     let report = save_report(arguments, &answer, &outcome, &pictures);
+    let viewer = save_viewer(arguments, &recording, &answer, &outcome, &pictures);
     // A picture or a page that could not be written must not cost the calibration.
     let written = arguments.report.as_deref().filter(|_| report.is_ok());
     let verdict = &outcome.calibration.verdict;
     let saved_paths = saved.as_deref().unwrap_or_default();
-    let summary = summary::text(&answer, verdict, &path, saved_paths, written);
+    let mut summary = summary::text(&answer, verdict, &path, saved_paths, written);
+    summary += viewer.as_deref().unwrap_or_default();
     // Standard output has the calibration, if that was asked for.
     if path == Path::new(STDOUT) {
         output::complain(&summary)
     } else {
         output::say(&summary)
     }
-    saved.and(report)?;
+    saved.and(report).and(viewer)?;
     Ok(if trusted { Ending::Done } else { Ending::Refused })
 }
 
@@ -163,6 +176,18 @@ pub(crate) fn pictures_of_named(
 ) -> Result<Vec<Picture>> {
     let recording = arguments.recording.open_of(&arguments.robot)?;
     Ok(pictures(&recording, outcome, front))
+}
+
+/// What viewers show of the recording that `arguments` name, and a layout of it; `None` without a pose.
+pub(crate) fn viewer_of_named(
+    arguments: &Arguments,
+    answer: &Answer,
+    outcome: &Outcome,
+    front: &dyn Front,
+) -> Result<Option<(Vec<u8>, String)>> {
+    let recording = arguments.recording.open_of(&arguments.robot)?;
+    let pictures = pictures(&recording, outcome, front);
+    viewer_bytes(answer, outcome, viewer::stamps(&recording, outcome), &pictures)
 }
 
 /// Calibrates the recording at `path` by the way that is asked for; errors say which recording it was.
@@ -242,7 +267,8 @@ fn check_report(report: &Path, destination: &Destination, force: bool) -> Result
 
 /// Every configuration with the posed arm over it, if anybody wants them.
 fn draw(arguments: &Arguments, recording: &Recording, outcome: &Outcome) -> Vec<Picture> {
-    match arguments.save_overlay.is_some() || arguments.report.is_some() {
+    let wanted = [&arguments.save_overlay, &arguments.report, &arguments.viewer_mcap];
+    match wanted.iter().any(|path| path.is_some()) {
         true => pictures(recording, outcome, &Terminal),
         false => Vec::new(),
     }
@@ -294,6 +320,19 @@ fn save_report(
     let recording = arguments.recording.recording.display().to_string();
     let page = page(&recording, answer, outcome, pictures);
     output::write_whole(path, page.as_bytes(), arguments.force)
+}
+
+/// Writes what viewers show, if that was asked for; what to say of it.
+fn save_viewer(
+    arguments: &Arguments,
+    recording: &Recording<'_>,
+    answer: &Answer,
+    outcome: &Outcome,
+    pictures: &[Picture],
+) -> Result<String> {
+    let Some(path) = &arguments.viewer_mcap else { return Ok(String::new()) };
+    let made_of = viewer::MadeOf { recording, answer, outcome, pictures };
+    viewer::save(path, &made_of, arguments.force)
 }
 
 /// The page on `answer`.

@@ -120,7 +120,7 @@ fn check_replaceable(folder: &Path) -> Result<()> {
 }
 
 /// What is read must not be written over, nor what it lies in.
-fn refuse_source(output: &Path, source: &Path) -> Result<()> {
+pub(crate) fn refuse_source(output: &Path, source: &Path) -> Result<()> {
     let Ok(real) = output.canonicalize() else { return Ok(()) };
     if source.canonicalize().is_ok_and(|source| source.starts_with(&real)) {
         bail!(

@@ -33,6 +33,16 @@ impl Calibration {
         run(py, &call, |front| self.inner.report(name, front.caller))
     }
 
+    /// What viewers show, as MCAP, and a layout; `None` without a pose.
+    fn viewer<'py>(
+        &self,
+        py: Python<'py>,
+        call: Call<'py>,
+    ) -> PyResult<Option<(Bound<'py, PyBytes>, String)>> {
+        let made = run(py, &call, |front| self.inner.viewer(front.caller))?;
+        Ok(made.map(|(bytes, layout)| (PyBytes::new(py, &bytes), layout)))
+    }
+
     /// Every configuration with the posed arm over it: name of its first frame, `(rows, columns, 3)` uint8.
     fn overlays<'py>(
         &self,

@@ -41,6 +41,11 @@ pub trait FrameSource: Debug + Send + Sync {
     /// Names of the frames, in their order, each once.
     fn frame_names(&self) -> &[String];
 
+    /// When frame `index` was taken, nanoseconds, by the clock of the depth; `None` where nobody knows.
+    fn stamp_ns(&self, _index: usize) -> Option<i64> {
+        None
+    }
+
     /// Whether frames come with masks of the arm.
     fn has_masks(&self) -> bool {
         false
@@ -183,6 +188,7 @@ mod tests {
         let least = Least(frame, vec!["a".to_owned()]);
         assert!(least.read_color(0).unwrap().is_none());
         assert!(least.read_picture(0).unwrap().is_none());
+        assert_eq!(least.stamp_ns(0), None);
         let error = least.read_color(1).unwrap_err();
         assert!(matches!(error, RecordingError::NoSuchFrame { index: 1, count: 1, .. }));
         let error = least.read_background(0).unwrap_err();

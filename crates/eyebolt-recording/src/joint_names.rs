@@ -72,6 +72,10 @@ impl FrameSource for NotedJoints<'_> {
         self.recording.camera_frame_id()
     }
 
+    fn stamp_ns(&self, index: usize) -> Option<i64> {
+        self.recording.source().stamp_ns(index)
+    }
+
     fn robot(&self) -> &RobotSection {
         self.recording.robot()
     }

@@ -111,6 +111,6 @@ pub use tf_file::parse_static_transforms;
 pub use truth::{CameraMoved, Truth, read_truth};
 pub use words::counted;
 pub use write::{
-    McapWriter, RecordingInfo, RecordingWriter, SessionWriter, WriteError, WriteRobot,
-    write_folder, write_mcap, write_npy, write_static_transforms,
+    McapWriter, RecordingInfo, RecordingWriter, SessionWriter, Viewed, ViewerWriter, WriteError,
+    WriteRobot, viewer_layout, write_folder, write_mcap, write_npy, write_static_transforms,
 };

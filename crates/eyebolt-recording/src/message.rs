@@ -30,6 +30,7 @@ pub(crate) use header::Header;
 pub(crate) use image::{ImageMessage, is_depth_encoding};
 pub(crate) use joint_state::JointStateMessage;
 pub use marker_array::{Marker, MarkerShape, markers_message};
+pub(crate) use marker_array::{MarkerFrame, placed_markers_message};
 pub use painted_cloud::{PaintedCloud, PointValues};
 pub use pose::UncertainPose;
 pub(crate) use string::text;

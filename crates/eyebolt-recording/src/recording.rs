@@ -61,7 +61,7 @@ impl<'a> Recording<'a> {
     /// When frame `index` was taken, nanoseconds since 1970; of what has no stamps, when [`crate::write_mcap`] says: images are a second
     /// apart, backgrounds first.
     pub fn stamp_ns(&self, index: usize) -> i64 {
-        let known = self.bag().and_then(|bag| bag.stamp_ns(index));
+        let known = self.source().stamp_ns(index);
         known.unwrap_or_else(|| stamp_ns(self.background_count().saturating_add(index)))
     }
 

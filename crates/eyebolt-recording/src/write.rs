@@ -12,6 +12,7 @@ mod png;
 mod recording_writer;
 mod robot;
 mod session;
+mod viewer;
 
 pub use error::WriteError;
 pub use folder::write_folder;
@@ -20,6 +21,7 @@ pub use npy::write_npy;
 pub use recording_writer::{RecordingInfo, RecordingWriter};
 pub use robot::WriteRobot;
 pub use session::SessionWriter;
+pub use viewer::{Viewed, ViewerWriter, viewer_layout};
 
 use crate::own_metadata;
 use crate::progress::Progress;

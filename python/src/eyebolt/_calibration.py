@@ -191,6 +191,28 @@ class Calibration:
             _native.write(os.fspath(path), page.encode(), force)
         return page
 
+    def viewer(self, path: PathLike, *, force: bool = False, progress: Progress = None) -> Path:
+        """Writes what Foxglove, Lichtblick and RViz show to `path`, a `.mcap` file: the posed robot, points coloured by how far they
+        lie from it, outlines, pictures and transforms. A layout for the first two goes beside it, to `*.layout.json`.
+
+        Returns:
+            Where the layout is.
+
+        Raises:
+            Error: No pose was found; the calibration was loaded, and what it was made of is not known; a file exists, or cannot be
+                written.
+        """
+        made = self._made_of("viewer").viewer(call(progress))
+        if made is None:
+            remedy = "See `reasons` for why"
+            raise Error(f"{self._name}: viewer: there is no pose to show. {remedy}", self._name, "viewer", remedy)
+        layout = Path(path).with_suffix(".layout.json")
+        if not force and layout.exists():
+            raise Error(f"{layout}: the file exists. Give `force` to replace it", str(layout), "path", "Give `force` to replace it")
+        _native.write(os.fspath(path), made[0], force)
+        _native.write(os.fspath(layout), made[1].encode(), force)
+        return layout
+
     def overlays(self, *, progress: Progress = None) -> dict[str, NDArray[np.uint8]]:
         """The posed arm over what the camera saw: for each configuration, by the name of its first frame, `(rows, columns, 3)`
         red, green, blue.

@@ -29,7 +29,7 @@ pub struct MarkerArguments {
     /// aruco:DICTIONARY:SIZE_M[:ID] (aruco:4x4_50:0.05), apriltag:FAMILY:SIZE_M[:ID] (apriltag:36h11:0.08),
     /// grid:DICTIONARY:COLUMNSxROWS:SIZE_M:GAP_M[:FIRST_ID] or
     /// charuco:DICTIONARY:COLUMNSxROWS:SQUARE_M:MARKER_M[:FIRST_ID]; sizes are sides of black squares
-    #[arg(long, help_heading = MARKERS, value_name = "MARKER", value_parser = marker, conflicts_with_all = ["save_overlay", "report", "model"])]
+    #[arg(long, help_heading = MARKERS, value_name = "MARKER", value_parser = marker, conflicts_with_all = ["save_overlay", "report", "viewer_mcap", "model"])]
     pub(super) marker: Option<Target>,
     /// The camera is on the hand and the marker stands still; otherwise the marker is on the hand
     #[arg(long, help_heading = MARKERS, requires = "marker")]

@@ -88,6 +88,19 @@ impl Calibrated {
         Ok(html(&self.answer, &self.outcome, &context))
     }
 
+    /// What Foxglove, Lichtblick and RViz show, as MCAP, and a layout for the first two; `None` without a pose.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::overlays`].
+    pub fn viewer(&self, caller: &Caller<'_>) -> Result<Option<(Vec<u8>, String)>, CallError> {
+        let (answer, outcome) = (&self.answer, &self.outcome);
+        Ok(match self.of_memory {
+            true => command::viewer_bytes(answer, outcome, None, &self.pictures(caller)?)?,
+            false => command::viewer_of_named(&self.arguments, answer, outcome, caller)?,
+        })
+    }
+
     fn pictures(&self, caller: &Caller<'_>) -> Result<Vec<Picture>, CallError> {
         Ok(match self.of_memory {
             true => overlays(&self.outcome, |_| None).collect(),

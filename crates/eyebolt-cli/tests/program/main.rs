@@ -30,4 +30,5 @@ mod simulate;
 mod simulate_flags;
 mod study;
 mod train;
+mod viewer;
 mod words;

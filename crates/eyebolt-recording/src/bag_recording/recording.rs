@@ -185,11 +185,6 @@ impl BagRecording {
         self.provenance.topics.clone()
     }
 
-    /// Stamp of frame `index` by the clock of the depth, nanoseconds.
-    pub fn stamp_ns(&self, index: usize) -> Option<i64> {
-        Some(self.range.entries.get(index)?.stamp_ns)
-    }
-
     /// What a writer of recordings asks of it.
     pub(crate) fn copy_source(&self) -> CopySource<'_> {
         CopySource {
@@ -213,6 +208,10 @@ impl BagRecording {
 }
 
 impl FrameSource for BagRecording {
+    fn stamp_ns(&self, index: usize) -> Option<i64> {
+        Some(self.range.entries.get(index)?.stamp_ns)
+    }
+
     fn camera(&self) -> Option<&PinholeCamera> {
         self.camera.as_ref().map(|info| &info.camera)
     }

@@ -8,5 +8,7 @@ pub(crate) const JOINT_STATE: &str = "sensor_msgs/JointState";
 pub(crate) const POSE: &str = "geometry_msgs/PoseWithCovarianceStamped";
 pub(crate) const STRING: &str = "std_msgs/String";
 pub(crate) const TRANSFORMS: &str = "tf2_msgs/TFMessage";
+/// As ROS 2 has it from Humble on; of viewers only.
+pub(crate) const MARKERS: &str = "visualization_msgs/MarkerArray";
 /// Of ROS 1's first transform library, still found in bags.
 pub(crate) const OLD_TRANSFORMS: &str = "tf/tfMessage";

@@ -4,6 +4,19 @@ use crate::message::types;
 
 /// The topic of transforms that never change.
 pub(super) const TF_STATIC: &str = "/tf_static";
+/// The topic of transforms that do.
+pub(super) const TF: &str = "/tf";
+/// The topic of a posed robot's shape, which is told once.
+pub(super) const ROBOT: &str = "/eyebolt/robot";
+
+/// Whether the last message of a topic should also reach those who come late.
+pub(super) fn is_latched(topic: &str, message_type: &str) -> bool {
+    match message_type {
+        types::STRING => true,
+        types::TRANSFORMS => topic != TF,
+        _ => topic == ROBOT,
+    }
+}
 
 const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 const HEADER: (&str, &str) =
@@ -34,10 +47,24 @@ const POSED: (&str, &str) =
 const POSE: (&str, &str) =
     ("geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n");
 const POINT: (&str, &str) = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
+const COLOR: (&str, &str) = ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n");
+const DURATION: (&str, &str) = ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n");
+const UV: (&str, &str) = ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n");
+const MESH_FILE: (&str, &str) = ("visualization_msgs/MeshFile", "string filename\nuint8[] data\n");
+const MARKER: (&str, &str) = (
+    "visualization_msgs/Marker",
+    "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\n\
+     geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\n\
+     builtin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\n\
+     std_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\n\
+     visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\n\
+     visualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n",
+);
 
 const IMAGE: &str = "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\n\
                      uint8 is_bigendian\nuint32 step\nuint8[] data\n";
 const COMPRESSED: &str = "std_msgs/Header header\nstring format\nuint8[] data\n";
+const TEXTURE: (&str, &str) = ("sensor_msgs/CompressedImage", COMPRESSED);
 const CLOUD: &str = "std_msgs/Header header\nuint32 height\nuint32 width\n\
                      sensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\n\
                      uint32 row_step\nuint8[] data\nbool is_dense\n";
@@ -65,6 +92,13 @@ pub(super) fn definition(message_type: &str) -> Option<String> {
         types::TRANSFORMS => (
             "geometry_msgs/TransformStamped[] transforms\n",
             &[STAMPED, HEADER, TIME, TRANSFORM, VECTOR, QUATERNION],
+        ),
+        types::MARKERS => (
+            "visualization_msgs/Marker[] markers\n",
+            &[
+                MARKER, HEADER, TIME, POSE, POINT, QUATERNION, VECTOR, COLOR, DURATION, UV,
+                MESH_FILE, TEXTURE,
+            ],
         ),
         _ => return None,
     };

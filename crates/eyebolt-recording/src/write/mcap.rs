@@ -1,6 +1,6 @@
 //! MCAP with ROS 2 messages, as `ros2 bag record -s mcap` writes it.
 
-use super::definitions::{TF_STATIC, definition};
+use super::definitions::{TF_STATIC, definition, is_latched};
 use super::error::WriteError;
 use crate::message::{StaticTransform, types, write_transforms};
 use mcap::records::{MessageHeader, Metadata};
@@ -96,8 +96,7 @@ impl<W: Write + Seek> McapWriter<W> {
         let name = message_type.replacen('/', "/msg/", 1);
         let schema = self.writer.add_schema(&name, "ros2msg", definition.as_bytes());
         let schema = schema.map_err(failed)?;
-        let latched = matches!(message_type, types::STRING | types::TRANSFORMS);
-        let profile = if latched { LATCHED } else { "" };
+        let profile = if is_latched(topic, message_type) { LATCHED } else { "" };
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), profile.to_owned())]);
         let channel = self.writer.add_channel(schema, topic, "cdr", &metadata).map_err(failed)?;
         Ok(Some((channel, 0)))

@@ -94,4 +94,5 @@ def main():
     print("the same in both readers, field by field:", counts)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -6,7 +6,6 @@
 mod advice;
 mod base64;
 mod batch;
-mod leftovers;
 mod pictures;
 mod plots;
 mod scene;
@@ -21,6 +20,7 @@ pub use advice::remedies;
 pub use batch::batch_page;
 pub use tables::tables_page;
 
+use super::leftovers;
 use super::picture::Picture;
 use crate::answer::Answer;
 use crate::pipeline::Outcome;

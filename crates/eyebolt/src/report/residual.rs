@@ -70,6 +70,12 @@ pub(super) fn paint(
 
 /// Colour and opacity of a residual: a hint of white at zero, which tells that there was depth.
 pub(super) fn shade(residual_mm: f32) -> (Rgb, f32) {
+    let share = (residual_mm / CLIP_MM).clamp(-1.0, 1.0).abs();
+    (color(residual_mm), 0.15 + 0.4 * share)
+}
+
+/// Colour of a residual: from blue, nearer than the model, over white to red, farther.
+pub(super) fn color(residual_mm: f32) -> Rgb {
     let t = (residual_mm / CLIP_MM).clamp(-1.0, 1.0);
     let end = if t < 0.0 { NEARER } else { FARTHER };
     let mix = |from: u8, to: u8| f32::from(from) + (f32::from(to) - f32::from(from)) * t.abs();
@@ -77,7 +83,7 @@ pub(super) fn shade(residual_mm: f32) -> (Rgb, f32) {
     for (channel, to) in color.iter_mut().zip(end) {
         *channel = mix(*channel, to) as u8;
     }
-    (color, 0.15 + 0.4 * t.abs())
+    color
 }
 
 /// Stripes, so that nobody takes it for a distance.

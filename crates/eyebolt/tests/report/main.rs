@@ -5,6 +5,8 @@ mod chromium;
 mod page;
 mod sample;
 mod scene_data;
+mod viewer;
+mod wire;
 
 #[path = "../newcomer/recording.rs"]
 mod recording;

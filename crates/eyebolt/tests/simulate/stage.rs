@@ -111,7 +111,7 @@ impl Recorded {
 
     /// Where the camera really was in `frame`.
     pub fn base_from_camera(&self, frame: usize) -> Transform<Base, Camera> {
-        let stamp_ns = self.recording.bag().unwrap().stamp_ns(frame).unwrap();
+        let stamp_ns = self.recording.stamp_ns(frame);
         self.truth.camera_from_base_at(stamp_ns).inverse()
     }
 }

@@ -8,14 +8,13 @@ mod quantised;
 mod rows;
 mod shape;
 
-use super::leftovers::Leftover;
 use crate::answer::Answer;
 use crate::observations::Observations;
 use crate::pipeline::Outcome;
-use eyebolt_registration::{Posture, Refinement};
+use crate::report::leftovers::Leftover;
+use crate::report::seen::all_seen;
 use nalgebra::{Point2, Point3};
 use quantised::Bounds;
-use rayon::prelude::*;
 use rows::rows;
 use serde::Serialize;
 
@@ -56,7 +55,7 @@ pub(super) fn scene(answer: &Answer, outcome: &Outcome, leftovers: &[Leftover]) 
     let base_from_camera = calibration.camera_from_base?.inverse();
     let base_from_image = refinement.camera_from_base.inverse();
     let postures = outcome.postures();
-    let clouds = clouds(observations, &postures, refinement, leftovers);
+    let clouds = all_seen(observations, &postures, refinement, leftovers);
     let bounds = Bounds::of(clouds.iter().flat_map(|cloud| &cloud.points));
     let dropped = |index: usize| {
         calibration.configurations.get(index).is_some_and(|outcome| outcome.dropped.is_some())
@@ -89,20 +88,6 @@ impl Scene {
         let json = serde_json::to_string(self).expect("a scene is plain data");
         json.replace('<', "\\u003c")
     }
-}
-
-fn clouds(
-    observations: &Observations,
-    postures: &[Posture],
-    refinement: &Refinement,
-    leftovers: &[Leftover],
-) -> Vec<cloud::Points> {
-    let most = cloud::most_points(observations.configurations.len());
-    let work = observations.configurations.par_iter().zip(postures).zip(leftovers);
-    work.map(|((configuration, posture), leftover)| {
-        cloud::seen(observations, configuration, posture, refinement, leftover, most)
-    })
-    .collect()
 }
 
 /// The image's corners; those of an image without a lens where its lens has no ray there.

@@ -5,12 +5,12 @@ mod drawings;
 pub(super) use drawings::{pictures, plots};
 
 use super::advice::remedies;
-use super::leftovers::Leftover;
 use super::spread::Spread;
 use crate::answer::Answer;
 use crate::calibrate::Verdict;
 use crate::export::{Format, Note, Placement, SavedCalibration, Wanted};
 use crate::pipeline::Outcome;
+use crate::report::leftovers::Leftover;
 use eyebolt_geometry::{CoordinateFrame, Transform};
 use eyebolt_registration::OUTLINES;
 use eyebolt_robot::Input;

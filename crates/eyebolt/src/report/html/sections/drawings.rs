@@ -3,10 +3,10 @@
 use crate::answer::Answer;
 use crate::pipeline::Outcome;
 use crate::refine::ConfigurationOutcome;
-use crate::report::html::leftovers::Leftover;
 use crate::report::html::plots::{Panel, Row, matrix, panels, rows};
 use crate::report::html::spread::Spread;
 use crate::report::html::{pictures as scaled, uncertainty};
+use crate::report::leftovers::Leftover;
 use crate::report::picture::Picture;
 use eyebolt_registration::{Presentation, presentation};
 use minijinja::{Value, context};
