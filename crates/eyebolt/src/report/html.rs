@@ -20,6 +20,7 @@ mod uncertainty;
 pub use advice::remedies;
 pub use batch::batch_page;
 pub use tables::tables_page;
+pub use template::STYLE;
 
 use super::picture::Picture;
 use crate::answer::Answer;
