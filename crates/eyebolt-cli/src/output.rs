@@ -106,12 +106,17 @@ impl Destination {
         path == self.trusted || path == self.rejected
     }
 
+    /// Where a calibration of this verdict belongs.
+    pub fn path(&self, trusted: bool) -> &Path {
+        if trusted { &self.trusted } else { &self.rejected }
+    }
+
     /// Writes a calibration where its verdict belongs; returns where that is.
     pub fn write(&self, trusted: bool, bytes: &[u8]) -> Result<PathBuf> {
-        let path = if trusted { &self.trusted } else { &self.rejected };
+        let path = self.path(trusted);
         if path == Path::new(STDOUT) {
             deliver(bytes)?;
-            return Ok(path.clone());
+            return Ok(path.to_owned());
         }
         write_whole(path, bytes, self.force)?;
         if trusted && self.force && self.rejected.exists() {
@@ -124,7 +129,7 @@ impl Destination {
                 ));
             }
         }
-        Ok(path.clone())
+        Ok(path.to_owned())
     }
 }
 

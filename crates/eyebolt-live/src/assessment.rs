@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::Serialize;
 
 /// What a session knows by now.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Assessment {
     /// How many configurations it is of.
     pub configurations: usize,

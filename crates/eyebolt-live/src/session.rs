@@ -72,6 +72,16 @@ impl Session {
         self.arm = Some(arm);
     }
 
+    /// The arm, once it is known.
+    pub fn arm(&self) -> Option<&Arm> {
+        self.arm.as_ref()
+    }
+
+    /// Where the joints were told to be last, by the names that the arm has for them.
+    pub fn joints(&self) -> &JointPositions {
+        &self.joints
+    }
+
     /// Whether the arm is known.
     pub fn has_arm(&self) -> bool {
         self.arm.is_some()

@@ -66,6 +66,7 @@ mod joints;
 mod manifest;
 mod mask;
 mod message;
+mod message_depth;
 mod no_recording;
 mod npy;
 mod own_metadata;
@@ -101,6 +102,7 @@ pub use message::{
     Marker, MarkerShape, PaintedCloud, PointValues, StaticTransform, UncertainPose,
     markers_message, text_message, write_transforms as static_transforms_message,
 };
+pub use message_depth::message_depth;
 pub use npy::{Dtype, Npy, Number};
 pub use progress::{Cancelled, Progress};
 pub use provenance::{

@@ -13,8 +13,9 @@ mod residual;
 mod seen;
 mod viewer;
 
-pub use html::{Context, TruthComparison, batch_page, html, remedies, tables_page};
+pub use backdrop::from_depth as depth_picture;
+pub use html::{Context, STYLE, TruthComparison, batch_page, html, remedies, tables_page};
 pub use labelled::{classes, labelled};
-pub use overlay::{Drawn, overlay, overlays};
+pub use overlay::{Drawn, OUTLINE, OutlinePixels, overlay, overlays};
 pub use picture::Picture;
 pub use viewer::Viewer;

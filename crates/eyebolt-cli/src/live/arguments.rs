@@ -3,7 +3,7 @@
 use super::domain::DomainArguments;
 use crate::calibrate::LimitArguments;
 use crate::inputs::{BagArguments, CacheArguments, RobotArguments};
-use eyebolt_live::Goal;
+use eyebolt_live::{Goal, WebAddress};
 use std::path::PathBuf;
 
 /// Options of `eyebolt live`.
@@ -21,7 +21,11 @@ pub struct Arguments {
     /// The expected error with which the session ends by itself
     #[arg(long, value_name = "MM,DEG", default_value_t)]
     pub goal: Goal,
-    /// Write a page for a browser at the end, as eyebolt calibrate does
+    /// Show the session on a page while it goes on, for browsers of this machine; 0.0.0.0:8642 is for whoever reaches it, such
+    /// as a telephone [default: 127.0.0.1:8642]
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:8642")]
+    pub web: Option<WebAddress>,
+    /// Write a report for a browser at the end, as eyebolt calibrate does [default with --web: beside the calibration, .html]
     #[arg(long, value_name = "HTML")]
     pub report: Option<PathBuf>,
     /// End when the calibration is written; otherwise it is published on /tf_static until you end it
@@ -41,4 +45,12 @@ pub struct Arguments {
     pub limits: LimitArguments,
     #[command(flatten)]
     pub cache: CacheArguments,
+}
+
+impl Arguments {
+    /// Where the report goes, if there is to be one.
+    pub fn report(&self) -> Option<PathBuf> {
+        let beside = self.web.map(|_| self.output.with_extension("html"));
+        self.report.clone().or(beside)
+    }
 }

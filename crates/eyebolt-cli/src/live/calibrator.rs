@@ -1,20 +1,22 @@
 //! Calibrates what was recorded so far, while more comes in.
 
+use super::scout::Scout;
 use crate::calibrate::MOST_CONFIGURATIONS;
 use crate::inputs::RobotArguments;
 use anyhow::{Context, Result};
 use eyebolt::calibrate::Limits;
 use eyebolt::pipeline::{self, Request};
 use eyebolt::record::RecordOptions;
-use eyebolt_live::Assessment;
+use eyebolt_live::{Assessment, Finding};
 use eyebolt_recording::{BagOptions, GrowingRecording, Recording};
 use eyebolt_registration::LinkCache;
+use eyebolt_robot::JointPositions;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, Sender};
 
 /// A thread that calibrates what was recorded so far, when it is asked to.
 pub struct Calibrator {
-    asked: Sender<()>,
+    asked: Sender<JointPositions>,
     answers: Receiver<Result<Assessment>>,
 }
 
@@ -25,25 +27,28 @@ struct Worker {
     cache: LinkCache,
     limits: Limits,
     seed: u64,
+    scout: Option<Scout>,
 }
 
 impl Calibrator {
-    /// Of the session at `path`.
+    /// Of the session at `path`; `scout` is handed what comes of it.
     pub fn start(
         path: &Path,
         (options, robot): (BagOptions, RobotArguments),
         (cache, limits, seed): (LinkCache, Limits, u64),
+        scout: Option<Scout>,
     ) -> Result<Self> {
         let growing = GrowingRecording::new(path, options);
-        let mut worker = Worker { path: path.to_owned(), growing, robot, cache, limits, seed };
-        let (asked, wanted) = mpsc::channel();
+        let mut worker =
+            Worker { path: path.to_owned(), growing, robot, cache, limits, seed, scout };
+        let (asked, wanted) = mpsc::channel::<JointPositions>();
         let (answer, answers) = mpsc::channel();
         let pool = few_threads()?;
         std::thread::Builder::new()
             .name("eyebolt-calibrator".to_owned())
             .spawn(move || {
-                while wanted.recv().is_ok() {
-                    if answer.send(pool.install(|| worker.assess())).is_err() {
+                while let Ok(joints) = wanted.recv() {
+                    if answer.send(pool.install(|| worker.assess(joints))).is_err() {
                         return;
                     }
                 }
@@ -52,10 +57,10 @@ impl Calibrator {
         Ok(Self { asked, answers })
     }
 
-    /// Asks for an answer of what is on disk.
-    pub fn ask(&self) {
+    /// Asks for an answer of what is on disk, while the joints are at `joints`.
+    pub fn ask(&self, joints: JointPositions) {
         // It ends with the program.
-        let _ = self.asked.send(());
+        let _ = self.asked.send(joints);
     }
 
     /// An answer, if one came.
@@ -72,7 +77,7 @@ fn few_threads() -> Result<rayon::ThreadPool> {
 }
 
 impl Worker {
-    fn assess(&mut self) -> Result<Assessment> {
+    fn assess(&mut self, joints: JointPositions) -> Result<Assessment> {
         let recording = Recording::Bag(Box::new(self.growing.now()?));
         let arm = self.robot.arm(&self.path, &recording)?;
         let recording = self.robot.noted(recording, &arm)?;
@@ -88,6 +93,11 @@ impl Worker {
             ..Request::new(recording.source(), &arm)
         };
         let outcome = pipeline::run(&request, &())?;
-        Ok(Assessment::of(&outcome, &arm))
+        let assessment = Assessment::of(&outcome, &arm);
+        if let Some(scout) = &self.scout {
+            let (cache, seed) = (self.cache.clone(), self.seed);
+            scout.hand(Finding { outcome, arm, joints, cache, seed });
+        }
+        Ok(assessment)
     }
 }

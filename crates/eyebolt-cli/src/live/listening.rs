@@ -5,6 +5,7 @@ use super::calibrator::Calibrator;
 use super::domain::now_ns;
 use super::keyboard::{Key, Keyboard};
 use super::lines;
+use super::page::{Page, Teller};
 use super::recorder::Recorder;
 use crate::ending::causes;
 use crate::output;
@@ -36,6 +37,7 @@ pub struct Listening<'a> {
     base: Option<String>,
     /// Whether it was said that all is there.
     ready: bool,
+    page: Teller<'a>,
     told: Instant,
     restarts: u64,
     /// How many lost messages were told, by topic.
@@ -54,6 +56,7 @@ impl<'a> Listening<'a> {
         bus: &'a Bus,
         recorder: Recorder,
         calibrator: Calibrator,
+        page: &'a Page,
     ) -> Result<Self> {
         let session = Session::new(arguments.goal, arguments.robot.notes());
         let (goal, told) = (arguments.goal, Instant::now());
@@ -66,6 +69,7 @@ impl<'a> Listening<'a> {
             goal,
             base: None,
             ready: false,
+            page: Teller::new(page),
             told,
             restarts: 0,
             lost: BTreeMap::new(),
@@ -83,9 +87,10 @@ impl<'a> Listening<'a> {
         while let Some(message) = self.bus.next(Duration::ZERO).filter(before) {
             let events = self.session.hear(&message);
             self.keep(&message, &events)?;
-            events.iter().filter_map(lines::event).for_each(|line| output::say(&line));
+            events.iter().filter_map(lines::event).for_each(|line| self.page.say(&line));
         }
         self.tell_lost();
+        self.page.tell(&self.session, true);
         Ok(ended)
     }
 
@@ -99,8 +104,9 @@ impl<'a> Listening<'a> {
             if let Some(message) = self.bus.next(WAIT) {
                 events = self.session.hear(&message);
                 self.keep(&message, &events)?;
+                self.page.show(message, &events, &self.session);
             }
-            match keyboard.typed() {
+            match keyboard.typed().or_else(|| self.page.asked()) {
                 Some(Key::End) => return Ok(Ended::Asked),
                 Some(Key::Capture) => events.extend(self.session.capture()),
                 None => {}
@@ -114,11 +120,12 @@ impl<'a> Listening<'a> {
                 }
                 self.see(event)?;
             }
+            self.page.tell(&self.session, !events.is_empty());
             if self.told.elapsed() >= STATUS {
                 self.told = Instant::now();
                 self.tell_status();
                 if seconds % REMINDER == REMINDER - 1 && !self.ready {
-                    output::say(&lines::waiting(&self.session.missing()));
+                    self.page.say(&lines::waiting(&self.session.missing()));
                 }
                 seconds += 1;
             }
@@ -151,6 +158,7 @@ impl<'a> Listening<'a> {
         match answer {
             Ok(assessment) => {
                 output::say(&lines::assessment(&assessment, &self.goal, self.base.as_deref()));
+                self.page.assess(&assessment);
                 if let Some(markers) =
                     self.base.as_deref().and_then(|base| pose_markers(base, &assessment))
                 {
@@ -159,7 +167,7 @@ impl<'a> Listening<'a> {
                 self.session.calibrated(Some(assessment))
             }
             Err(error) => {
-                output::complain(&format!("cannot be calibrated yet: {}", causes(&error)));
+                self.page.complain(&format!("cannot be calibrated yet: {}", causes(&error)));
                 self.session.calibrated(None)
             }
         }
@@ -167,20 +175,20 @@ impl<'a> Listening<'a> {
 
     fn see(&mut self, event: &Event) -> Result<()> {
         if let Some(line) = lines::event(event) {
-            output::say(&line);
+            self.page.say(&line);
         }
         match event {
             Event::Description(text) => self.know_arm(Some(text))?,
             Event::Taken { .. } => self.recorder.flush(now_ns())?,
             Event::Calibrate => {
                 self.recorder.flush(now_ns())?;
-                self.calibrator.ask();
+                self.calibrator.ask(self.session.joints().clone());
             }
             _ => {}
         }
         if !self.ready && self.session.missing().is_empty() {
             self.ready = true;
-            output::say(lines::READY);
+            self.page.say(lines::READY);
         }
         Ok(())
     }
@@ -188,6 +196,7 @@ impl<'a> Listening<'a> {
     /// Takes the arm of the flags, or the one that a description tells.
     fn know_arm(&mut self, text: Option<&str>) -> Result<()> {
         if let Some(arm) = self.arguments.robot.arm_of_text(text)? {
+            self.page.know_base(arm.base_name());
             self.base = Some(arm.base_name().to_owned());
             self.session.set_arm(arm);
         }
@@ -199,7 +208,7 @@ impl<'a> Listening<'a> {
         for (topic, total) in self.session.status().lost {
             let told = self.lost.entry(topic.clone()).or_default();
             if total > told {
-                output::say(&lines::lost(topic, total - *told, *total));
+                self.page.say(&lines::lost(topic, total - *told, *total));
                 *told = *total;
             }
         }
@@ -209,7 +218,7 @@ impl<'a> Listening<'a> {
         self.tell_lost();
         if self.bus.restarts() != self.restarts {
             self.restarts = self.bus.restarts();
-            output::complain(
+            self.page.complain(
                 "the transport broke, over a malformed packet or a fault of its own, and was started again",
             );
         }

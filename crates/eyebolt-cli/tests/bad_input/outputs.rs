@@ -97,3 +97,21 @@ fn a_saved_calibration_that_is_cut_short() {
     assert_eq!(fs::read(&output).unwrap(), b"precious");
     assert_eq!(desk.names(), ["calibration.json", "tf.txt"]);
 }
+
+/// Told before anybody is listened to.
+#[test]
+fn a_page_that_cannot_be_served_and_a_report_that_is_there() {
+    let desk = Desk::new();
+    let output = desk.file("calibration.json");
+    let live = ["live", "--localhost-only", "--output", text(&output)];
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap().to_string();
+    let ended = eyebolt(&[&live[..], &["--web", &address]].concat());
+    ended.assert_error(&["--web", &address, "in use", "Give another address or port"]);
+    assert_eq!(desk.names(), [""; 0]);
+
+    fs::write(desk.file("calibration.html"), "precious").unwrap();
+    let ended = eyebolt(&[&live[..], &["--web", "127.0.0.1:0"]].concat());
+    ended.assert_error(&["calibration.html", "exists", "Give --force"]);
+    assert_eq!(desk.names(), ["calibration.html"]);
+}

@@ -84,6 +84,20 @@ impl MovableArm {
         self.joints.iter().map(|joint| joints.get(&joint.name)).collect()
     }
 
+    /// The shapes of its links, with the joints whose zeros may be off.
+    pub fn model(&self) -> &ArmModel {
+        &self.model
+    }
+
+    /// Where `joints` put the links of [`Self::model`], with the axes of its joints. Joints outside the chain that have no
+    /// position in it are where they are held; `None` if one of the chain has none.
+    pub fn posture_at(&self, joints: &JointPositions) -> Option<Posture> {
+        let all = self.held.iter().chain(joints.iter());
+        // The last one of a name counts.
+        let all = all.map(|(name, at)| (name.to_owned(), at)).collect();
+        record::posture(&self.body.arm, &self.model, &all).ok()?
+    }
+
     /// Where the links are, without the axes of the joints.
     pub(super) fn posture(&self, positions: &[f64]) -> Option<Posture> {
         self.body.posture(&self.all_joints(positions))

@@ -39,7 +39,7 @@ fn toned_down([r, g, b]: Rgb) -> Rgb {
 
 /// Depth as grey, near ones bright. Greys go with the inverse depth, as the arm stands near and
 /// walls are far.
-pub(super) fn from_depth(depth: &DepthImage) -> Picture {
+pub fn from_depth(depth: &DepthImage) -> Picture {
     let mut spread: Vec<f32> =
         depth.depth_m().iter().step_by(STRIDE).filter(|z| **z > 0.0).map(|z| 1.0 / z).collect();
     spread.sort_unstable_by(f32::total_cmp);

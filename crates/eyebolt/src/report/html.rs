@@ -19,6 +19,7 @@ mod uncertainty;
 pub use advice::remedies;
 pub use batch::batch_page;
 pub use tables::tables_page;
+pub use template::STYLE;
 
 use super::leftovers;
 use super::picture::Picture;

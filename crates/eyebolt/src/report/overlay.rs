@@ -10,7 +10,8 @@ use eyebolt_recording::ColorImage;
 use eyebolt_registration::Posture;
 use eyebolt_render::{ContourPoint, Raster, contour};
 
-const OUTLINE: Rgb = [40, 255, 70];
+/// Of the outline.
+pub const OUTLINE: [u8; 3] = [40, 255, 70];
 const MASK_EDGE: Rgb = [255, 225, 0];
 /// Opacity of edges of one part of the arm before another.
 const INNER: f32 = 0.45;
@@ -98,18 +99,34 @@ fn paint_edge(picture: &mut Picture, mask: &Mask) {
     }
 }
 
-/// The outline two pixels wide, one on either side; edges within the arm thinner and dimmer.
-fn paint_outline(picture: &mut Picture, raster: &Raster, camera: &PinholeCamera) {
-    let points = contour(raster, camera);
-    for point in points.iter().filter(|point| point.behind_m.is_some()) {
-        let [inside, _] = sides(point, raster.width());
-        picture.blend(inside, OUTLINE, INNER);
-    }
-    for point in points.iter().filter(|point| point.behind_m.is_none()) {
-        for at in sides(point, raster.width()) {
-            picture.blend(at, OUTLINE, 1.0);
+/// Row-major pixels of the outline of what was drawn.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OutlinePixels {
+    /// Two pixels wide: the drawing's last and the first beyond.
+    pub outer: Vec<usize>,
+    /// Edges of one part of the drawing before another, on the part that is before.
+    pub inner: Vec<usize>,
+}
+
+impl OutlinePixels {
+    /// Of what `raster` shows of `camera`'s image.
+    pub fn of(raster: &Raster, camera: &PinholeCamera) -> Self {
+        let points = contour(raster, camera);
+        let (outer, inner): (Vec<_>, Vec<_>) =
+            points.iter().partition(|point| point.behind_m.is_none());
+        let sides = |point: &ContourPoint| sides(point, raster.width());
+        Self {
+            outer: outer.into_iter().flat_map(sides).collect(),
+            inner: inner.into_iter().map(|point| sides(point)[0]).collect(),
         }
     }
+}
+
+/// The outline; edges within the arm dimmer.
+fn paint_outline(picture: &mut Picture, raster: &Raster, camera: &PinholeCamera) {
+    let OutlinePixels { outer, inner } = OutlinePixels::of(raster, camera);
+    inner.into_iter().for_each(|at| picture.blend(at, OUTLINE, INNER));
+    outer.into_iter().for_each(|at| picture.blend(at, OUTLINE, 1.0));
 }
 
 /// Row-major pixels at a place of the contour: the surface's last and the first beyond.

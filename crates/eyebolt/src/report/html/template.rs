@@ -3,6 +3,9 @@
 use super::svg::signed;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
 
+/// How the pages look: colours for both colour schemes by name, and classes.
+pub const STYLE: &str = include_str!("style.css");
+
 /// Texts that stand in the page as they are, and those that are filled in.
 const FILES: [(&str, &str); 12] = [
     ("page.html", include_str!("page.html")),
@@ -14,7 +17,7 @@ const FILES: [(&str, &str); 12] = [
     ("made.html", include_str!("made.html")),
     ("batch.html", include_str!("batch.html")),
     ("tables.html", include_str!("tables.html")),
-    ("style.css", include_str!("style.css")),
+    ("style.css", STYLE),
     ("page.js", include_str!("page.js")),
     ("view.js", include_str!("view.js")),
 ];
