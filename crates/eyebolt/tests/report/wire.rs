@@ -36,7 +36,9 @@ impl<'a> Wire<'a> {
     }
 
     pub fn skip(&mut self, count: usize) {
-        (0..count).for_each(|_| drop(self.u32()));
+        for _ in 0..count {
+            self.u32();
+        }
     }
 
     pub fn blob(&mut self) -> &'a [u8] {
