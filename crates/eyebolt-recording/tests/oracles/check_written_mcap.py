@@ -30,7 +30,8 @@ def plain(value):
     if isinstance(value, (list, tuple)):
         return [plain(v) for v in value]
     names = getattr(value, "__dataclass_fields__", None) or value.__slots__
-    fields = {n: plain(getattr(value, n)) for n in names if not n.startswith("_")}
+    # Constants of a type, which not every definition has, are in capitals.
+    fields = {n: plain(getattr(value, n)) for n in names if not n.startswith("_") and not n.isupper()}
     fields.pop("__msgtype__", None)
     return fields
 
