@@ -38,7 +38,8 @@ mod tests {
     fn the_page_is_complete_and_all_of_it_is_marked() {
         let page = page("0123");
         assert!(!page.contains('%') || !page.contains("%NONCE%") && !page.contains("%STYLE%"));
-        assert!(page.contains("--paper"));
+        // A colour of the report.
+        assert!(page.contains("-paper: "));
         for (open, marked) in
             [("<script", "<script nonce=\"0123\">"), ("<style", "<style nonce=\"0123\">")]
         {
