@@ -34,7 +34,7 @@ pub struct Segmentation {
     pub width: usize,
     /// Number of rows.
     pub height: usize,
-    /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`UNKNOWN`].
+    /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`UNKNOWN`](super::UNKNOWN).
     pub label: Vec<u8>,
     /// The same by the network of whole frames alone.
     pub whole: Vec<u8>,
