@@ -26,8 +26,6 @@ use learned::LearnedArguments;
 pub use limits::LimitArguments;
 use std::path::{Path, PathBuf};
 pub(crate) use viewer::bytes as viewer_bytes;
-#[cfg(feature = "live")]
-pub(crate) use way::MOST_CONFIGURATIONS;
 pub use way::WayArguments;
 
 /// Options of `eyebolt calibrate`.

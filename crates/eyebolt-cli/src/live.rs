@@ -11,7 +11,7 @@ mod publish;
 mod recorder;
 mod scout;
 
-use crate::calibrate::{self, WayArguments};
+use crate::calibrate;
 use crate::ending::{Ending, causes};
 use crate::inputs::RecordingArguments;
 use crate::output::{self, Destination, STDOUT};
@@ -62,7 +62,7 @@ fn listen(
     let calibrator = Calibrator::start(
         &session,
         (arguments.bag.options_of(&arguments.robot), arguments.robot.clone()),
-        (arguments.cache.open(), arguments.limits.limits(), arguments.seed),
+        arguments.way(),
         page.scout()?,
     )?;
     let keyboard = Keyboard::listen()?;
@@ -81,7 +81,7 @@ fn listen(
     let ending = calibrate::run(&calibrate::Arguments::of_session(
         (session, arguments.robot.clone()),
         (arguments.output.clone(), arguments.report()),
-        WayArguments::plain(arguments.limits.clone(), arguments.seed, arguments.cache.clone()),
+        arguments.way(),
         arguments.force,
     ))?;
     let trusted = matches!(ending, Ending::Done);

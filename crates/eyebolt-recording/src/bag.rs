@@ -23,6 +23,7 @@ use bag_file::{BagFile, LARGEST_CHUNK};
 pub use files::is_bag;
 pub use kind::BagKind;
 pub(crate) use locator::Locator;
+pub(crate) use mcap::MAGIC as MCAP_MAGIC;
 #[cfg(test)]
 use message::Location;
 pub(crate) use message::Message;

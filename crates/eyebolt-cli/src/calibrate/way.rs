@@ -29,7 +29,7 @@ pub struct WayArguments {
 }
 
 /// Of more configurations, those that differ most are used.
-pub const MOST_CONFIGURATIONS: u16 = 30;
+const MOST_CONFIGURATIONS: u16 = 30;
 
 impl WayArguments {
     /// Without a model, and everything else as it is by default.

@@ -1,7 +1,7 @@
 //! How `eyebolt live` is asked for.
 
 use super::domain::DomainArguments;
-use crate::calibrate::LimitArguments;
+use crate::calibrate::{LimitArguments, WayArguments};
 use crate::inputs::{BagArguments, CacheArguments, RobotArguments};
 use eyebolt_live::{Goal, WebAddress};
 use std::path::PathBuf;
@@ -48,6 +48,11 @@ pub struct Arguments {
 }
 
 impl Arguments {
+    /// How what was recorded is calibrated, on the way and in the end.
+    pub fn way(&self) -> WayArguments {
+        WayArguments::plain(self.limits.clone(), self.seed, self.cache.clone())
+    }
+
     /// Where the report goes, if there is to be one.
     pub fn report(&self) -> Option<PathBuf> {
         let beside = self.web.map(|_| self.output.with_extension("html"));

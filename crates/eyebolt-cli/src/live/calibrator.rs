@@ -1,15 +1,12 @@
 //! Calibrates what was recorded so far, while more comes in.
 
 use super::scout::Scout;
-use crate::calibrate::MOST_CONFIGURATIONS;
+use crate::calibrate::WayArguments;
 use crate::inputs::RobotArguments;
 use anyhow::{Context, Result};
-use eyebolt::calibrate::Limits;
-use eyebolt::pipeline::{self, Request};
-use eyebolt::record::RecordOptions;
+use eyebolt::pipeline;
 use eyebolt_live::{Assessment, Finding};
 use eyebolt_recording::{BagOptions, GrowingRecording, Recording};
-use eyebolt_registration::LinkCache;
 use eyebolt_robot::JointPositions;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -24,9 +21,7 @@ struct Worker {
     path: PathBuf,
     growing: GrowingRecording,
     robot: RobotArguments,
-    cache: LinkCache,
-    limits: Limits,
-    seed: u64,
+    way: WayArguments,
     scout: Option<Scout>,
 }
 
@@ -35,12 +30,11 @@ impl Calibrator {
     pub fn start(
         path: &Path,
         (options, robot): (BagOptions, RobotArguments),
-        (cache, limits, seed): (LinkCache, Limits, u64),
+        way: WayArguments,
         scout: Option<Scout>,
     ) -> Result<Self> {
         let growing = GrowingRecording::new(path, options);
-        let mut worker =
-            Worker { path: path.to_owned(), growing, robot, cache, limits, seed, scout };
+        let mut worker = Worker { path: path.to_owned(), growing, robot, way, scout };
         let (asked, wanted) = mpsc::channel::<JointPositions>();
         let (answer, answers) = mpsc::channel();
         let pool = few_threads()?;
@@ -81,21 +75,11 @@ impl Worker {
         let recording = Recording::Bag(Box::new(self.growing.now()?));
         let arm = self.robot.arm(&self.path, &recording)?;
         let recording = self.robot.noted(recording, &arm)?;
-        let options = RecordOptions {
-            most_configurations: usize::from(MOST_CONFIGURATIONS),
-            ..RecordOptions::default()
-        };
-        let request = Request {
-            cache: self.cache.clone(),
-            options,
-            limits: self.limits,
-            seed: self.seed,
-            ..Request::new(recording.source(), &arm)
-        };
+        let request = self.way.request(&recording, &arm);
+        let (cache, seed) = (request.cache.clone(), request.seed);
         let outcome = pipeline::run(&request, &())?;
         let assessment = Assessment::of(&outcome, &arm);
         if let Some(scout) = &self.scout {
-            let (cache, seed) = (self.cache.clone(), self.seed);
             scout.hand(Finding { outcome, arm, joints, cache, seed });
         }
         Ok(assessment)

@@ -36,8 +36,14 @@ pub(super) fn of(
     let interrupt = Interrupt::new()?;
     let (mut finder, mut waiting) = (None, Waiting::default());
     let mut lines: Vec<Line> = Vec::new();
-    let mut frame_id = OPTICAL_FRAME.to_owned();
+    let (mut frame_id, mut looked_at) = (OPTICAL_FRAME.to_owned(), None);
     while interrupt.check().is_ok() {
+        let length = std::fs::metadata(path).map(|file| file.len()).ok();
+        if looked_at == Some(length) {
+            sleep(WAIT);
+            continue;
+        }
+        looked_at = Some(length);
         // Asked first: what came before the end is read then.
         let has_ended = growing.has_ended()?;
         let recording = match growing.now() {
@@ -45,7 +51,6 @@ pub(super) fn of(
             // Something is not there yet.
             Err(error) if !has_ended && is_early(&error) => {
                 waiting.tell(&error.into());
-                sleep(WAIT);
                 continue;
             }
             Err(error) => return Err(error.into()),
@@ -74,7 +79,6 @@ pub(super) fn of(
         if has_ended {
             break;
         }
-        sleep(WAIT);
     }
     Ok((lines, frame_id))
 }

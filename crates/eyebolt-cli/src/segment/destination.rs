@@ -26,31 +26,29 @@ pub(super) enum Destination {
 impl Destination {
     /// What `path` names, with `clouds` beside the labels, for frames called `names`.
     pub(super) fn of(path: &Path, clouds: Option<CloudForm>, names: &[String]) -> Result<Self> {
-        let path = path.to_owned();
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        let cloud = match ending.to_ascii_lowercase().as_str() {
-            "mcap" => None,
-            "npz" => None,
-            "ply" => Some(CloudForm::Ply),
-            "pcd" => Some(CloudForm::Pcd),
+        let path = path.to_owned();
+        let to = match ending.to_ascii_lowercase().as_str() {
+            "mcap" => Self::Mcap(path),
+            "npz" => Self::Npz(path),
+            "ply" => Self::Cloud(path, CloudForm::Ply),
+            "pcd" => Self::Cloud(path, CloudForm::Pcd),
             _ => return Ok(Self::Folder(path, clouds)),
         };
         if clouds.is_some() {
             bail!(
                 "{}: --output: --clouds writes into a folder. Name a folder, or leave --clouds out",
-                path.display()
+                to.path().display()
             );
         }
-        match cloud {
-            Some(form) if names.len() > 1 => bail!(
+        match &to {
+            Self::Cloud(path, form) if names.len() > 1 => bail!(
                 "{}: --output: this takes one frame, and there are {}. Name a folder and give --clouds {}, or a file that ends in .mcap",
                 path.display(),
                 names.len(),
                 form.ending()
             ),
-            Some(form) => Ok(Self::Cloud(path, form)),
-            None if ending.eq_ignore_ascii_case("npz") => Ok(Self::Npz(path)),
-            None => Ok(Self::Mcap(path)),
+            _ => Ok(to),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::growing_scan::GrowingScan;
 use super::options::BagOptions;
 use super::recording::BagRecording;
-use crate::bag::Bag;
+use crate::bag::{Bag, MCAP_MAGIC as MAGIC};
 use crate::error::RecordingError;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -53,9 +53,6 @@ impl GrowingRecording {
         BagRecording::of_scan(&self.path, bag, scan, &self.options)
     }
 }
-
-/// How an MCAP begins and ends.
-const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 
 /// The first bytes of a file, and the last ones that are not among them.
 fn ends_of(path: &Path) -> Result<(Vec<u8>, Vec<u8>), RecordingError> {

@@ -6,11 +6,14 @@ use super::reader::{check_size, first_frame};
 use eyebolt_geometry::{Camera, Cloud, DepthImage, PinholeCamera, RayTable, Transform};
 use eyebolt_recording::{FrameSource, Range};
 use nalgebra::Point3;
+use std::sync::OnceLock;
 
 /// How the frames of a recording become depth images of one camera.
 #[derive(Debug)]
 pub struct FrameImages {
     projection: Projection,
+    /// Of the camera, once somebody asks for points.
+    rays: OnceLock<RayTable>,
 }
 
 /// What the camera saw in one frame.
@@ -34,7 +37,7 @@ impl FrameImages {
             return Err(RecordError::NoFrames);
         }
         let first = first_frame(source, &frames)?;
-        Ok(Self { projection: projection::find(source, &first, false)? })
+        Ok(Self { projection: projection::find(source, &first, false)?, rays: OnceLock::new() })
     }
 
     /// The camera of all images.
@@ -74,7 +77,7 @@ impl FrameImages {
     /// cloud its own points, of a depth image its pixels.
     pub fn points(&self, frame: &FrameImage) -> Vec<(Point3<f32>, usize)> {
         let Some(cloud) = &frame.cloud else {
-            let rays = RayTable::new(self.camera());
+            let rays = self.rays.get_or_init(|| RayTable::new(self.camera()));
             let seen = frame.depth.depth_m().iter().enumerate().filter(|(_, z)| **z > 0.0);
             return seen.map(|(at, z)| (Point3::from(rays.point(at, *z)), at)).collect();
         };
