@@ -21,10 +21,9 @@ static LEFT: Mutex<Option<String>> = Mutex::new(None);
 
 /// Says `left` of what was done so far, should Ctrl-C end the program at once.
 pub fn leaves(left: String) -> Result<()> {
-    install()?;
     // A thread that panicked while it held the lock left the text whole.
     *LEFT.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(left);
-    Ok(())
+    install()
 }
 
 fn install() -> Result<()> {

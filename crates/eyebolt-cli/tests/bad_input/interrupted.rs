@@ -79,14 +79,16 @@ fn a_data_set_half_filled() {
     assert!(known > 0 && known < LABELLED_FRAMES as u64, "{known}");
 }
 
-/// Whether the process catches the signal that Ctrl-C sends.
+/// Whether the process catches the signal that Ctrl-C sends, in a thread of its own as the program
+/// does. The shell that becomes the program catches it too, and has one thread.
 #[cfg(target_os = "linux")]
 fn catches_interrupts(process: u32) -> bool {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
-    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
-    let mask = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    let field = |name| status.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
+    let caught = field("SigCgt:").and_then(|mask| u64::from_str_radix(mask, 16).ok());
+    let threads = field("Threads:").and_then(|count| count.parse::<usize>().ok());
     // SIGINT is the second.
-    mask.is_some_and(|mask| mask & 0b10 != 0)
+    caught.is_some_and(|mask| mask & 0b10 != 0) && threads.is_some_and(|count| count > 1)
 }
 
 /// A calibration writes nothing before its end, and says so.
