@@ -4,6 +4,8 @@ mod arguments;
 mod lines;
 #[cfg(feature = "live")]
 mod live;
+#[cfg(feature = "live")]
+mod published;
 mod teller;
 
 use crate::calibrate;

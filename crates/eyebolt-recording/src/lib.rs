@@ -99,8 +99,9 @@ pub use in_memory::{BorrowedFrame, BorrowedFrames, InMemory, Make, depth_from_mi
 pub use joint_names::{JointNotes, NotedJoints};
 pub use manifest::{CloudFrame, RobotSection};
 pub use message::{
-    Marker, MarkerShape, PaintedCloud, PointValues, StaticTransform, UncertainPose,
-    markers_message, text_message, write_transforms as static_transforms_message,
+    Diagnostic, DiagnosticLevel, Marker, MarkerShape, PaintedCloud, PointValues, StaticTransform,
+    UncertainPose, diagnostic_message, markers_message, text_message,
+    write_transforms as static_transforms_message,
 };
 pub use message_depth::message_depth;
 pub use npy::{Dtype, Npy, Number};

@@ -1,7 +1,7 @@
 //! Arms whose base is lower than described, as that of another variant: found out, or within what is expected.
 //!
 //! ```text
-//! cargo run --release -p eyebolt --example lower_base -- [--sessions 20] [--seed 3] [--lower-mm 50]
+//! cargo run --release -p eyebolt --example lower_base -- [--sessions 20] [--first 0] [--seed 3] [--lower-mm 50]
 //! ```
 //!
 //! Sessions are those of a study, each with the base lower by as much; each is refused, or its error is within
@@ -24,9 +24,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let flag = |name: &str, usual: f64| flags.get(name).copied().unwrap_or(usual);
     let (count, seed) = (flag("--sessions", 20.0) as u64, flag("--seed", 3.0) as u64);
+    let first = flag("--first", 0.0) as u64;
     let lower_m = 1e-3 * flag("--lower-mm", 50.0);
     let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-lab-links"));
-    let ended: Vec<(Session, Ending)> = (0..count)
+    let ended: Vec<(Session, Ending)> = (first..first + count)
         .into_par_iter()
         .map(|number| {
             let mut session = Session::draw(seed, number, Some(Kind::LowerBase));
@@ -58,9 +59,13 @@ fn told(ending: &Ending) -> (&'static str, String) {
     let most = quantiles.and_then(|quantiles| Some(quantiles.get(level)?.translation_m));
     let off = error.map(|error| error.translation_m);
     let reasons: Vec<&str> = refusals.iter().map(|refusal| refusal.name.as_str()).collect();
-    let found = still_part.map(|still| {
+    let found = still_part.as_ref().map(|still| {
+        let still = still.best;
         let shift: [f64; 3] = still.shift_m.map(|x| (1e4 * x).round() / 10.0).into();
-        format!("base {shift:?} mm, evidence {:.1} and {:.1}", still.seen_through, still.nearer)
+        format!(
+            "base {shift:?} mm, evidence {:.1}, {:.1}, {:.1}",
+            still.seen_through, still.nearer, still.more
+        )
     });
     let how = format!(
         "off {:.1} mm, expected {:.1} mm, 95 % within {:.1} mm; {}; {}",

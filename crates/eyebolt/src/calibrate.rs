@@ -23,5 +23,5 @@ pub use jackknife::Jackknife;
 pub use judge::calibrate;
 pub use limits::Limits;
 pub use reason::{Reason, Verdict};
-pub use still_part::StillPart;
+pub use still_part::{Elsewhere, StillPart};
 pub use unknown_parts::UnknownPart;

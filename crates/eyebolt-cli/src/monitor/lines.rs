@@ -44,10 +44,11 @@ pub fn ending(last: Option<&ViewReport>, views: usize, counted: usize) -> String
         };
         return format!("{word}: {count}");
     };
-    let found = last.moved.iter().take(3).map(suspect).collect::<Vec<_>>().join("; ");
-    let found = if found.is_empty() { "cannot be told".to_owned() } else { found };
-    let mut text =
-        format!("{}: {count}\nwhat moved: {found}", emphasised("something moved", false));
+    let mut text = format!(
+        "{}: {count}\nwhat moved: {}",
+        emphasised("something moved", false),
+        suspects(last)
+    );
     if let Some(pose) = &last.proposed_camera_from_base {
         let [x, y, z] = pose.translation_m;
         let [qx, qy, qz, qw] = pose.rotation_xyzw;
@@ -57,6 +58,12 @@ pub fn ending(last: Option<&ViewReport>, views: usize, counted: usize) -> String
         );
     }
     text
+}
+
+/// What moved, likeliest first.
+pub fn suspects(report: &ViewReport) -> String {
+    let found = report.moved.iter().take(3).map(suspect).collect::<Vec<_>>().join("; ");
+    if found.is_empty() { "cannot be told".to_owned() } else { found }
 }
 
 fn suspect(moved: &Moved) -> String {

@@ -1,6 +1,7 @@
 //! `eyebolt monitor --ros-domain`.
 
 use super::arguments::{Arguments, FEW, check_base};
+use super::published::Published;
 use super::teller::{Ended, Teller};
 use crate::ending::{Ending, causes};
 use crate::front::Terminal;
@@ -8,7 +9,7 @@ use crate::output;
 use crate::progress::Interrupt;
 use crate::robots::told;
 use anyhow::{Context, Result};
-use eyebolt::export::SavedCalibration;
+use eyebolt::export::{FrameName, SavedCalibration};
 use eyebolt::monitor::{Known, Monitor, Watched, look};
 use eyebolt::observations::Observations;
 use eyebolt::record::{RecordError, observe};
@@ -26,7 +27,7 @@ const HEARD: &str = "what was heard";
 
 /// Watches what is published, until Ctrl-C.
 pub fn watch(arguments: &Arguments, calibration: &SavedCalibration) -> Result<Ending> {
-    let mut ears = Ears::new(arguments)?;
+    let mut ears = Ears::new(arguments, calibration)?;
     let mut teller = Teller::new(arguments.json);
     let Some((arm, first)) = ears.first_rests(calibration)? else { return Ok(teller.end(false)) };
     let options = arguments.options();
@@ -46,9 +47,17 @@ pub fn watch(arguments: &Arguments, calibration: &SavedCalibration) -> Result<En
                 per_rest: usize::from(arguments.per_rest),
             };
             let looked = look::<Ended>(&watched, &mut monitor, |report| {
-                teller.tell(report).map_err(Ended::Output)
+                let published = ears.published.see(&ears.bus, &report);
+                published.and_then(|()| teller.tell(report)).map_err(Ended::Output)
             });
-            looked.map_err(|ended| ended.into_error(failed))?;
+            match looked {
+                Ok(()) => {}
+                // One rest of many.
+                Err(Ended::Record(error)) => {
+                    output::complain(&format!("note: {}", causes(&failed(error))));
+                }
+                Err(Ended::Output(error)) => return Err(error),
+            }
         } else {
             output::complain(
                 "the camera's images are of another size or focal length now: not looked at",
@@ -70,10 +79,11 @@ struct Ears<'a> {
     bus: Bus,
     interrupt: Interrupt,
     rests: Rests,
+    published: Published,
 }
 
 impl<'a> Ears<'a> {
-    fn new(arguments: &'a Arguments) -> Result<Self> {
+    fn new(arguments: &'a Arguments, calibration: &SavedCalibration) -> Result<Self> {
         let bus = arguments.domain.join(arguments.bag.topics())?;
         let interrupt = Interrupt::new()?;
         if !arguments.json {
@@ -81,12 +91,15 @@ impl<'a> Ears<'a> {
             output::say(&format!("listening to domain {domain} until you end this (Ctrl-C)"));
         }
         let (options, rests) = (arguments.bag.options_of(&arguments.robot), Rests::default());
-        Ok(Self { arguments, options, bus, interrupt, rests })
+        let published =
+            Published::new(calibration.camera_frame.as_ref().map_or("", FrameName::as_str));
+        Ok(Self { arguments, options, bus, interrupt, rests, published })
     }
 
     /// What was heard around the next rest; `None` if somebody ended it.
     fn messages(&mut self) -> Option<Vec<Incoming>> {
         while self.interrupt.check().is_ok() {
+            self.published.repeat(&self.bus);
             let heard = self.bus.next(WAIT).and_then(|message| self.rests.hear(&message));
             if heard.is_some() {
                 return heard;

@@ -1,7 +1,7 @@
 //! Lines of JSON for machines.
 
 use anyhow::Result;
-use eyebolt::calibrate::{Deviation, StillPart};
+use eyebolt::calibrate::{Deviation, Elsewhere};
 use eyebolt::study::{Answered, Ending, LEVELS, Refusal, SessionResult, Study, Summary, Tally};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -60,9 +60,11 @@ fn tell(answered: &Answered, line: &mut Value) -> Result<()> {
     if let Some(after) = answered.error_after_bump {
         line["error_after_bump"] = serde_json::to_value(off(after))?;
     }
-    if let Some(StillPart { shift_m, seen_through, nearer }) = answered.still_part {
+    if let Some(still) = &answered.still_part {
+        let Elsewhere { shift_m, seen_through, nearer, more } = still.best;
         line["base_shift_mm"] = serde_json::to_value(shift_m.map(|m| 1e3 * m).as_slice())?;
-        line["base_shift_evidence"] = json!({ "seen_through": seen_through, "nearer": nearer });
+        line["base_shift_evidence"] =
+            json!({ "seen_through": seen_through, "nearer": nearer, "more": more });
     }
     if let Some(quantiles) = answered.quantiles {
         let named = LEVELS.iter().zip(quantiles);

@@ -18,6 +18,10 @@ pub enum Outgoing {
     Markers,
     /// `tf2_msgs/msg/TFMessage` on `/tf_static`.
     StaticTransforms,
+    /// What was last seen of a calibration that is watched: JSON in a `std_msgs/msg/String` on `/eyebolt/monitor`.
+    Watched,
+    /// `diagnostic_msgs/msg/DiagnosticArray` on `/diagnostics`.
+    Diagnostics,
 }
 
 impl Outgoing {
@@ -26,6 +30,8 @@ impl Outgoing {
             Self::Status => ("/eyebolt/status", "std_msgs/msg/String"),
             Self::Markers => ("/eyebolt/markers", "visualization_msgs/msg/MarkerArray"),
             Self::StaticTransforms => ("/tf_static", "tf2_msgs/msg/TFMessage"),
+            Self::Watched => ("/eyebolt/monitor", "std_msgs/msg/String"),
+            Self::Diagnostics => ("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),
         }
     }
 }

@@ -7,11 +7,13 @@ recording says.
 Checked are: that every message that was published is in the session, or was said to be lost; that the calibration is the
 one of the session, and the recording's within what the clock of another recorder does; that it does not matter who
 was there first; that a session that is killed is calibrated like any other; that a publisher may be restarted;
-what is published on /tf_static and /eyebolt/status, to whoever comes late; and that malformed packets change nothing.
+what is published on /tf_static and /eyebolt/status, to whoever comes late; that malformed packets change nothing; and
+that the monitor finds the calibration true while it is, tells so on /diagnostics, and finds out a camera that was turned.
 """
 
 import argparse
 import json
+import math
 import os
 import signal
 import subprocess
@@ -62,6 +64,32 @@ def apart(a, b):
     position = max(abs(x - y) for x, y in zip(a["translation_m"], b["translation_m"]))
     turn = max(abs(x - y) for x, y in zip(a["rotation_xyzw"], b["rotation_xyzw"]))
     return position, turn
+
+
+def panned(answer, degrees):
+    """The calibration of a camera that was turned by so much about its own y axis since."""
+    half = math.radians(degrees) / 2
+    s, c = math.sin(half), math.cos(half)
+
+    def times(a, b):
+        (ax, ay, az, aw), (bx, by, bz, bw) = a, b
+        return [
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ]
+
+    def rotated(q, v):
+        return times(times(q, [*v, 0.0]), [-q[0], -q[1], -q[2], q[3]])[:3]
+
+    by = [0.0, s, 0.0, c]
+    base, camera = answer["base_from_camera"], answer["camera_from_base"]
+    base["rotation_xyzw"] = times(base["rotation_xyzw"], by)
+    back = [0.0, -s, 0.0, c]
+    camera["rotation_xyzw"] = times(back, camera["rotation_xyzw"])
+    camera["translation_m"] = rotated(back, camera["translation_m"])
+    return answer
 
 
 class Live:
@@ -196,6 +224,45 @@ class Checks:
         assert came[depth] > sent[depth] and "LOST" not in live.text(), live.text()
         self.compare(live, 2e-3, 2e-3)
 
+    def monitored(self):
+        print("a calibration that is watched")
+        assert self.watch("true", self.offline) == (0, 0)
+        turned = self.work / "turned.json"
+        turned.write_text(json.dumps(panned(json.loads(self.offline.read_text()), 2.0)))
+        assert self.watch("turned", turned) == (3, 2)
+
+    def watch(self, name, calibration):
+        """How the monitor ended, and the last level on /diagnostics."""
+        from cyclonedds.core import Policy, Qos
+        from cyclonedds.domain import DomainParticipant
+        from cyclonedds.sub import DataReader
+        from cyclonedds.topic import Topic
+        from cyclonedds.util import duration
+
+        import ros_types
+
+        # As whoever shows diagnostics asks for them.
+        qos = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(100))
+        participant = DomainParticipant(self.domain)
+        topic = Topic(participant, "rt/diagnostics", ros_types.DiagnosticArray, qos=qos)
+        diagnostics = DataReader(participant, topic, qos=qos)
+        command = [self.eyebolt, "monitor", calibration, "--ros-domain", str(self.domain), "--localhost-only", "--json"]
+        said = open(self.work / f"monitor_{name}", "wb")
+        monitor = subprocess.Popen([*command, "--cache", self.work / "cache", *ARM], stdout=said, stderr=subprocess.STDOUT)
+        end, told = time.monotonic() + PATIENCE_S, []
+        while not told:
+            assert monitor.poll() is None and time.monotonic() < end, (self.work / f"monitor_{name}").read_text()
+            told += diagnostics.take(100)
+            time.sleep(0.05)
+        published(publish(self.recording, self.domain, "--stamp-now", "--linger", 8))
+        told += diagnostics.take(100)
+        monitor.send_signal(signal.SIGINT)
+        code = monitor.wait(timeout=PATIENCE_S)
+        last = told[-1].status[0]
+        seen = {value.key: value.value for value in last.values}
+        print(f"  {name}: exit {code}; {len(told)} messages on /diagnostics, the last: level {last.level}, {last.message!r}, {seen}")
+        return code, last.level
+
     def rubbish(self):
         print("malformed packets meanwhile")
         live = Live(self, "rubbish", "--no-tf")
@@ -229,6 +296,7 @@ def main():
         "killed": checks.killed,
         "restarted": checks.restarted,
         "rubbish": checks.rubbish,
+        "monitored": checks.monitored,
     }
     for name, check in all_checks.items():
         if arguments.only in (None, name):

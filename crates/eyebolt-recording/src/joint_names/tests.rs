@@ -1,3 +1,5 @@
+mod all_else;
+
 use super::*;
 use crate::InMemory;
 use eyebolt_geometry::Distortion;

@@ -228,9 +228,11 @@ fn by_doubts(doubts: &[Doubt], birge: f64) -> Matrix6<f64> {
 
 /// Covariance from a base that is not where the description has it: the answer is of the base.
 fn by_base(still: &StillPart, pose: &Transform<Camera, Base>, birge: f64) -> Matrix6<f64> {
-    let shift = pose.direction(&still.shift_m);
-    let shift = Vector6::new(shift.x, shift.y, shift.z, 0.0, 0.0, 0.0);
-    shift * shift.transpose() * still.probability(birge)
+    let turn = pose.rotation().to_rotation_matrix();
+    let mut covariance = Matrix6::zeros();
+    let in_camera = turn.matrix() * still.mean_square(birge) * turn.matrix().transpose();
+    covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&in_camera);
+    covariance
 }
 
 /// Standard deviation of an answer from one kind of evidence alone, along each axis, m and rad: what

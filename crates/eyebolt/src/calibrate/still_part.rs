@@ -5,79 +5,82 @@
 //! Only the links before the first joint can tell, and few of all pixels are theirs, so that robust weights
 //! pass over them. They are judged apart: by where else they would fit what was seen.
 
+mod links;
+mod posterior;
+
 use crate::observations::Observations;
-use eyebolt_geometry::{Base, Camera, Mask, Transform};
-use eyebolt_registration::{ArmModel, Posture, Start, median};
+use eyebolt_registration::Start;
 use eyebolt_render::Raster;
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use links::{Fit, Still};
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-/// Where the links that never move fit best.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StillPart {
-    /// How far from where the description has them, base frame, metres.
+/// Another place of the links that never move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elsewhere {
+    /// How far it is from where the description has them, base frame, metres.
     pub shift_m: Vector3<f64>,
     /// By how much the logarithm of the likelihood grows there, since less of the links is seen through.
     pub seen_through: f64,
     /// And since depth is nearer to their surfaces.
     pub nearer: f64,
+    /// And since more of what is seen lies on their surfaces.
+    pub more: f64,
+}
+
+/// Where the links that never move may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StillPart {
+    /// Where they fit best; where the description has them, if hardly anything is seen of them.
+    pub best: Elsewhere,
+    /// Other places along the axis of the first joint, in their order.
+    along: Vec<Elsewhere>,
+    /// That axis, base frame.
+    axis: Vector3<f64>,
 }
 
 /// The logarithm of the likelihood that has to be won for a base to be elsewhere without doubt.
 const SURELY: f64 = 8.0;
-/// How likely a base is to be elsewhere before anything is seen of it.
-const ELSEWHERE: f64 = 0.15;
-/// By as much: bases of described arms are millimetres off now and then, and hardly ever far.
-const USUAL_M: f64 = 0.01;
+/// Nearer places have depth that cameras get wrong in corners, by time of flight as by stereo, and say
+/// nothing by what is seen through.
+const FAR_M: f64 = 0.022;
+/// Fewer pixels in sight say nothing.
+const LEAST_PIXELS: usize = 150;
 
 impl StillPart {
-    /// How likely it is there, and not where the description has it, with kinds of evidence that disagree
-    /// `birge` times as much as they should: what all depth is off by moves surfaces, but no scene before
-    /// them.
-    pub fn probability(&self, birge: f64) -> f64 {
-        let log_evidence = self.seen_through + self.nearer / birge.max(1.0);
-        let usual = ELSEWHERE * (USUAL_M / self.shift_m.norm().max(USUAL_M)).powi(3);
-        let odds = usual / (1.0 - usual) * log_evidence.exp();
-        (odds / (1.0 + odds)).min(1.0)
+    /// Mean square of how far the links are from where the description has them, along the base's axes, square
+    /// metres, with kinds of evidence that disagree `birge` times as much as they should: what all depth is off by
+    /// moves surfaces, but no scene before them.
+    pub fn mean_square(&self, birge: f64) -> Matrix3<f64> {
+        posterior::mean_square(&self.along, &self.axis, birge)
     }
 
     /// How far it is from where the description has it, if that is surely somewhere else.
     pub fn sure_shift_m(&self) -> Vector3<f64> {
-        if self.seen_through > SURELY { self.shift_m } else { Vector3::zeros() }
+        if self.best.seen_through > SURELY {
+            self.axis * self.axis.dot(&self.best.shift_m)
+        } else {
+            Vector3::zeros()
+        }
     }
 }
 
-/// Edges of moving links, and what cameras make of them, reach this far, pixels.
-const CLEARANCE_PX: u32 = 8;
-/// Pixels this near to the links' outline do not say that they are seen through, as in the refinement.
-const RIM_PX: u32 = 4;
-/// Nearer places have depth that cameras get wrong in corners, by time of flight as by stereo.
-const FAR_M: f64 = 0.022;
-/// Pixels over which errors of depth are correlated, as in the refinement.
-const CORRELATED_PIXELS: f64 = 400.0;
-/// Pixels over which wrong matches are: the patches of gloss.
-const WRONG_TOGETHER: f64 = 80.0;
-/// Pixels looked at for one place, about.
-const PIXELS: usize = 4000;
-/// Fewer pixels in sight say nothing.
-const LEAST_PIXELS: usize = 150;
-/// A place where less than this share of what is seen of the links is seen hides them.
-const LEAST_SHARE: f64 = 0.7;
-/// Depth is wrong somewhere on the arm in this share of pixels, and then anywhere within this, metres.
-const WRONG: f64 = 0.1;
-const ANYWHERE_M: f64 = 1.0;
-/// Depth cameras have errors that are alike over all of a link, of this size, metres.
-const LEAST_DEVIATION_M: f64 = 0.003;
-/// How far variants of an arm may differ in where the first joint is, along its axis and across, metres.
-const ALONG_M: [f64; 2] = [-0.12, 0.12];
-const ACROSS_M: f64 = 0.03;
+/// How far variants of an arm may differ in where the first joint is along its axis, metres.
+const ALONG_M: f64 = 0.12;
+/// Across it they do not; answers are off by a few millimetres there.
+const ACROSS_M: f64 = 0.012;
 /// Steps of the search, metres, the last of which is as fine as pixels allow.
 const COARSE_M: f64 = 0.01;
-const COARSE_ACROSS_M: f64 = 0.015;
+const COARSE_ACROSS_M: f64 = 0.006;
 const FINE_M: [f64; 4] = [0.006, 0.003, 0.0015, 0.0008];
+/// From how many places a step goes on at most.
+const MOST_STEPS: usize = 8;
+/// Places beside the one described, and beside the best one, that tell how sure it is, metres.
+const BESIDE_M: [f64; 10] =
+    [-0.0065, -0.0045, -0.003, -0.0015, -0.0008, 0.0008, 0.0015, 0.003, 0.0045, 0.0065];
 
-/// Where the links of the configurations `used` that never move fit best with the arm at `at`, of whose
-/// surfaces depth is off by `deviation_m`; `None` if hardly anything is seen of them.
+/// Where the links of the configurations `used` that never move may be with the arm at `at`, of whose
+/// surfaces depth is off by `deviation_m`; `None` if all links move, or none does.
 pub(super) fn still_part(
     observations: &Observations,
     used: &[usize],
@@ -87,258 +90,87 @@ pub(super) fn still_part(
 ) -> Option<StillPart> {
     let still = Still::new(observations, used, rasters, at, deviation_m)?;
     let axis = still.axis;
-    let described = still.fit(&mut Raster::new(&observations.camera), &Vector3::zeros());
-    if described.pixels < LEAST_PIXELS {
-        return None;
-    }
-    let places = coarse(&axis);
-    let of_place = |raster: &mut Raster, place: &Vector3<f64>| (still.fit(raster, place), *place);
-    let tried: Vec<(Fit, Vector3<f64>)> =
-        places.par_iter().map_init(|| Raster::new(&observations.camera), of_place).collect();
-    let tried = tried.into_iter().filter(|(fit, _)| fit.is_as_much_as(&described));
-    let best = least(tried.chain([(described, Vector3::zeros())]))?;
-    let (fit, shift_m) = still.finer(best, &axis, &described);
-    let found = still.gained(&described, &fit, shift_m);
+    let search = Search { observations, described: still.fit_as_described(), still };
+    let found = search.found();
     tracing::debug!(
-        shift_mm = ?(1e3 * shift_m).as_slice(),
-        found.seen_through,
-        found.nearer,
-        ?described,
-        ?fit,
+        shift_mm = ?(1e3 * found.best.shift_m).as_slice(),
+        best = ?found.best,
+        described = ?search.described,
+        spread_mm = ?found.mean_square(1.0).diagonal().map(|square| 1e3 * square.sqrt()).as_slice(),
+        ?axis,
         "where what never moves fits best"
     );
     Some(found)
 }
 
-/// Places to begin at: along the axis, and beside it.
-fn coarse(axis: &Vector3<f64>) -> Vec<Vector3<f64>> {
-    let [aside, other] = across(axis);
-    let [low, high] = ALONG_M.map(|metres| (metres / COARSE_M).round() as i32);
-    let along = (low..=high).map(|step| f64::from(step) * COARSE_M * axis);
-    let steps = (ACROSS_M / COARSE_ACROSS_M).round() as i32;
-    let beside = (-steps..=steps).flat_map(|a| (-steps..=steps).map(move |b| (a, b)));
-    let beside =
-        beside.map(|(a, b)| COARSE_ACROSS_M * (f64::from(a) * aside + f64::from(b) * other));
-    along.chain(beside).collect()
-}
-
-/// Two directions across `axis` and each other.
-fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let mut any = Vector3::zeros();
-    any[axis.iamin()] = 1.0;
-    let aside = axis.cross(&any).normalize();
-    [aside, axis.cross(&aside)]
-}
-
-/// How the links fit in one place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Fit {
-    /// Pixels that say something, and at how many of them the scene behind is seen.
-    pixels: usize,
-    through: usize,
-    /// By how much the logarithm of the likelihood of the others is less than if all agreed perfectly.
-    less: f64,
-    /// And of one that is seen through.
-    less_through: f64,
-}
-
-impl Fit {
-    /// Per pixel: places that show more of the links are no better for that, since what stands beside them
-    /// may look like them.
-    fn misfit(&self) -> f64 {
-        self.share_through() * self.less_through / WRONG_TOGETHER + self.off() / CORRELATED_PIXELS
-    }
-
-    fn share_through(&self) -> f64 {
-        self.through as f64 / self.pixels.max(1) as f64
-    }
-
-    fn off(&self) -> f64 {
-        self.less / self.pixels.max(1) as f64
-    }
-
-    /// Whether as good as all that is seen of the links as described is seen here too.
-    fn is_as_much_as(&self, described: &Self) -> bool {
-        self.pixels as f64 >= LEAST_SHARE * described.pixels as f64
-    }
-}
-
-/// The place with the least misfit.
-fn least(tried: impl Iterator<Item = (Fit, Vector3<f64>)>) -> Option<(Fit, Vector3<f64>)> {
-    tried.min_by(|(a, _), (b, _)| a.misfit().total_cmp(&b.misfit()))
-}
-
-/// The links that never move, and what is seen about them.
-struct Still<'a> {
+struct Search<'a> {
     observations: &'a Observations,
-    links: ArmModel,
-    posture: Posture,
-    camera_from_base: Transform<Camera, Base>,
-    /// Axis of the first joint, base frame.
-    axis: Vector3<f64>,
-    /// Depth of what stays, metres; 0 where nothing is known.
-    seen_m: Vec<f32>,
-    deviation_m: f64,
-    stride: usize,
+    still: Still<'a>,
+    described: Fit,
 }
 
-impl<'a> Still<'a> {
-    fn new(
-        observations: &'a Observations,
-        used: &[usize],
-        rasters: &mut [Raster],
-        at: &Start,
-        deviation_m: f64,
-    ) -> Option<Self> {
-        let arm = &observations.arm;
-        let configurations = used.iter().map(|index| &observations.configurations[*index]);
-        let postures: Vec<Posture> = configurations
-            .clone()
-            .map(|configuration| configuration.posture.moved(arm, &at.joint_offsets))
-            .collect();
-        let first = postures.first()?;
-        let axis = first.axes().first()?.along_in_base.into_inner();
-        let stays = |link: &usize| {
-            let carried = arm.joints().iter().any(|joint| joint.carries[*link]);
-            let same = |posture: &Posture| {
-                let pose = &posture.base_from_link()[*link];
-                let (metres, radians) = pose.distance_to(&first.base_from_link()[*link]);
-                metres < SAME_M && radians < SAME_RAD
-            };
-            !carried && postures.iter().all(same)
-        };
-        let (stay, move_): (Vec<usize>, Vec<usize>) = (0..arm.links().len()).partition(stays);
-        if stay.is_empty() || move_.is_empty() {
-            return None;
+/// A place that was tried.
+type Tried = (Fit, Vector3<f64>);
+
+impl Search<'_> {
+    fn found(&self) -> StillPart {
+        let axis = self.still.axis;
+        if self.described.pixels < LEAST_PIXELS {
+            let along = along()
+                .into_iter()
+                .map(|metres| Elsewhere { shift_m: metres * axis, ..Elsewhere::default() });
+            return StillPart { best: Elsewhere::default(), along: along.collect(), axis };
         }
-        let links = ArmModel::new(stay.iter().map(|link| arm.links()[*link].clone()).collect());
-        let poses = stay.iter().map(|link| first.base_from_link()[*link]).collect();
-        let posture = Posture::new(&links, poses);
-        let views: Vec<(&[f32], Mask)> = configurations
-            .zip(&postures)
-            .zip(rasters.iter_mut())
-            .map(|((configuration, posture), raster)| {
-                let meshes = posture.meshes(arm, &at.camera_from_base);
-                let moving: Vec<_> = move_.iter().map(|link| meshes[*link]).collect();
-                raster.draw(&observations.camera, &moving);
-                let free = raster.inverse_depth().iter().map(|inverse| *inverse <= 0.0).collect();
-                let (width, height) = (observations.camera.width(), observations.camera.height());
-                let free =
-                    Mask::new(width, height, free).expect("a raster is of its camera's size");
-                (configuration.depth.depth_m(), free.eroded(CLEARANCE_PX))
-            })
+        let along = self.tried(along().into_iter().map(|metres| metres * axis).collect());
+        let beside = self.tried(beside(&axis));
+        let all = along.iter().chain(&beside).filter(|(fit, _)| fit.is_as_much_as(&self.described));
+        let coarse = least(all.copied()).unwrap_or((self.described, Vector3::zeros()));
+        let (fit, shift_m) = self.finer(coarse);
+        let near = self.tried(BESIDE_M.iter().map(|metres| shift_m + *metres * axis).collect());
+        let mut places: Vec<Elsewhere> = along
+            .into_iter()
+            .chain(near)
+            .chain([(fit, shift_m)])
+            .map(|(fit, shift_m)| self.elsewhere(&fit, shift_m))
             .collect();
-        let factor = at.depth_factor();
-        let mut still = Self {
-            observations,
-            links,
-            posture,
-            camera_from_base: at.camera_from_base,
-            axis,
-            seen_m: (0..observations.camera.pixel_count())
-                .into_par_iter()
-                .map(|pixel| factor * lasting(&views, pixel))
-                .collect(),
-            deviation_m: deviation_m.max(LEAST_DEVIATION_M),
-            stride: 1,
-        };
-        let mut raster = Raster::new(&observations.camera);
-        still.draw(&mut raster, &Vector3::zeros());
-        still.stride = ((raster.pixels().count() / PIXELS) as f64).sqrt().ceil().max(1.0) as usize;
-        Some(still)
+        places.sort_by(|a, b| axis.dot(&a.shift_m).total_cmp(&axis.dot(&b.shift_m)));
+        StillPart { best: self.elsewhere(&fit, shift_m), along: places, axis }
     }
 
-    /// Draws the links `shift_m` from where the description has them.
-    fn draw(&self, raster: &mut Raster, shift_m: &Vector3<f64>) {
-        let shift = Transform::<Base, Base>::from_parts(*shift_m, UnitQuaternion::identity());
-        let meshes = self.posture.meshes(&self.links, &(self.camera_from_base * shift));
-        raster.draw(&self.observations.camera, &meshes);
+    fn tried(&self, places: Vec<Vector3<f64>>) -> Vec<Tried> {
+        let of_place =
+            |raster: &mut Raster, place: Vector3<f64>| (self.still.fit(raster, &place), place);
+        let raster = || Raster::new(&self.observations.camera);
+        places.into_par_iter().map_init(raster, of_place).collect()
     }
 
-    /// How the links fit there.
-    fn fit(&self, raster: &mut Raster, shift_m: &Vector3<f64>) -> Fit {
-        self.draw(raster, shift_m);
-        let base_from_camera = self.camera_from_base.inverse().isometry().cast::<f32>();
-        let shift = shift_m.cast::<f32>();
-        let width = self.observations.camera.width() as usize;
-        let reach = (4.0 * self.deviation_m) as f32;
-        let (mut fit, mut last) = (Fit::default(), 0);
-        let (width_px, height_px) =
-            (self.observations.camera.width(), self.observations.camera.height());
-        let drawn = raster.inverse_depth().iter().map(|inverse| *inverse > 0.0).collect();
-        let drawn =
-            Mask::new(width_px, height_px, drawn).expect("a raster is of its camera's size");
-        let inner = drawn.eroded(RIM_PX);
-        let at_surface = (1.0 - WRONG) * ANYWHERE_M / (self.deviation_m * TAU.sqrt());
-        for pixel in raster.pixels() {
-            if !(pixel / width).is_multiple_of(self.stride)
-                || !(pixel % width).is_multiple_of(self.stride)
-            {
-                continue;
-            }
-            let (Some(z), seen) = (raster.depth_m(pixel), self.seen_m[pixel]) else { continue };
-            if seen <= 0.0 {
-                continue;
-            }
-            let point: Point3<f32> =
-                base_from_camera * self.observations.rays.point(pixel, seen) - shift;
-            let nearest = self.posture.nearest_within(&self.links, &point, reach, last);
-            let near =
-                nearest.filter(|nearest| nearest.distance_m > -reach).map_or(0.0, |nearest| {
-                    last = nearest.link;
-                    let off = f64::from(nearest.distance_m) / self.deviation_m;
-                    at_surface * (-0.5 * off * off).exp()
-                });
-            // What stands before the links hides them, wherever they are.
-            match near > 1.0 {
-                true => fit.less += (at_surface + WRONG).ln() - (near + WRONG).ln(),
-                false if seen >= z && inner.as_slice()[pixel] => fit.through += 1,
-                false => continue,
-            }
-            fit.pixels += 1;
-        }
-        fit.less_through = (at_surface + WRONG).ln() - WRONG.ln();
-        fit
-    }
-
-    /// What `fit` at a place has before the links as described.
-    fn gained(&self, described: &Fit, fit: &Fit, shift_m: Vector3<f64>) -> StillPart {
-        let pixels = (described.pixels * self.stride * self.stride) as f64;
-        let through = described.share_through() - fit.share_through();
-        StillPart {
+    /// What speaks for a place.
+    fn elsewhere(&self, fit: &Fit, shift_m: Vector3<f64>) -> Elsewhere {
+        let gain = self.still.gain(&self.described, fit);
+        let far = self.still.axis.dot(&shift_m).abs() > FAR_M;
+        let if_far = |gain: f64| if far { gain } else { 0.0 };
+        Elsewhere {
             shift_m,
-            seen_through: match shift_m.norm() > FAR_M {
-                true => pixels / WRONG_TOGETHER * described.less_through * through,
-                false => 0.0,
-            },
-            nearer: pixels / CORRELATED_PIXELS * (described.off() - fit.off()),
+            seen_through: if_far(gain.seen_through),
+            nearer: gain.nearer,
+            more: if_far(gain.more),
         }
     }
 
     /// The best place near to `begin`.
-    fn finer(
-        &self,
-        begin: (Fit, Vector3<f64>),
-        axis: &Vector3<f64>,
-        described: &Fit,
-    ) -> (Fit, Vector3<f64>) {
-        let [aside, other] = across(axis);
-        let directions = [*axis, -axis, aside, -aside, other, -other];
+    fn finer(&self, begin: Tried) -> Tried {
+        let axis = self.still.axis;
+        let [aside, other] = across(&axis);
+        let directions = [axis, -axis, aside, -aside, other, -other];
         let mut best = begin;
         for step in FINE_M {
             for _ in 0..MOST_STEPS {
                 let (found, place) = best;
-                let next = directions
-                    .par_iter()
-                    .map_init(
-                        || Raster::new(&self.observations.camera),
-                        |raster, direction| {
-                            let place = place + step * direction;
-                            (self.fit(raster, &place), place)
-                        },
-                    )
-                    .collect::<Vec<_>>();
-                let next = next.into_iter().filter(|(fit, _)| fit.is_as_much_as(described));
+                let next = self.tried(directions.iter().map(|way| place + step * way).collect());
+                let across = |place: &Vector3<f64>| (place - axis * axis.dot(place)).norm();
+                let next = next.into_iter().filter(|(fit, place)| {
+                    fit.is_as_much_as(&self.described) && across(place) <= ACROSS_M
+                });
                 match least(next) {
                     Some(next) if next.0.misfit() < found.misfit() => best = next,
                     _ => break,
@@ -349,20 +181,34 @@ impl<'a> Still<'a> {
     }
 }
 
-const MOST_STEPS: usize = 8;
-const TAU: f64 = std::f64::consts::TAU;
-/// Poses of a link that are the same.
-const SAME_M: f64 = 1e-3;
-const SAME_RAD: f64 = 2e-3;
+/// Places along the axis, finer about the one described, which is among them, in order.
+fn along() -> Vec<f64> {
+    let steps = (ALONG_M / COARSE_M).round() as i32;
+    let coarse = (-steps..=steps).map(|step| f64::from(step) * COARSE_M);
+    let mut all: Vec<f64> = coarse.chain(BESIDE_M).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
 
-/// Depth at `pixel` that lasts over the configurations in which it is clear of what moves; 0 if most of
-/// them have none there.
-fn lasting(views: &[(&[f32], Mask)], pixel: usize) -> f32 {
-    let clear = || views.iter().filter(|(_, free)| free.as_slice()[pixel]);
-    let mut depths: Vec<f64> =
-        clear().map(|(depth, _)| f64::from(depth[pixel])).filter(|z| *z > 0.0).collect();
-    if 2 * depths.len() < clear().count() {
-        return 0.0;
-    }
-    median(&mut depths).map_or(0.0, |z| z as f32)
+/// Places beside the one described.
+fn beside(axis: &Vector3<f64>) -> Vec<Vector3<f64>> {
+    let [aside, other] = across(axis);
+    let steps = (ACROSS_M / COARSE_ACROSS_M).round() as i32;
+    let pairs = (-steps..=steps).flat_map(|a| (-steps..=steps).map(move |b| (a, b)));
+    let places =
+        pairs.map(|(a, b)| COARSE_ACROSS_M * (f64::from(a) * aside + f64::from(b) * other));
+    places.filter(|place| place.norm() <= ACROSS_M).collect()
+}
+
+/// Two directions across `axis` and each other.
+fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let mut any = Vector3::zeros();
+    any[axis.iamin()] = 1.0;
+    let aside = axis.cross(&any).normalize();
+    [aside, axis.cross(&aside)]
+}
+
+/// The place with the least misfit.
+fn least(tried: impl Iterator<Item = Tried>) -> Option<Tried> {
+    tried.min_by(|(a, _), (b, _)| a.misfit().total_cmp(&b.misfit()))
 }

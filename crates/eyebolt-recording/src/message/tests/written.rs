@@ -1,8 +1,9 @@
 //! What we write is read as it was, and what `rosbags` wrote is written as it is.
 
 use super::super::{
-    CameraInfoMessage, CloudMessage, CompressedImageMessage, Header, ImageMessage,
-    JointStateMessage, PointField, StaticTransform, WireReader, transforms, write_transforms,
+    CameraInfoMessage, CloudMessage, CompressedImageMessage, Diagnostic, DiagnosticLevel, Header,
+    ImageMessage, JointStateMessage, PointField, StaticTransform, WireReader, diagnostic_message,
+    transforms, write_transforms,
 };
 use super::rosbags::fixtures;
 use crate::bag::Encoding;
@@ -97,6 +98,29 @@ proptest! {
         }).collect();
         let bytes = write_transforms(&listed, stamp_ns);
         prop_assert_eq!(transforms(&mut reader(&bytes)), Ok(listed));
+    }
+
+    #[test]
+    fn diagnostics(
+        stamp_ns in stamp(), name in ".{0,9}", message in ".{0,9}", hardware_id in ".{0,9}",
+        values in prop::collection::vec((".{0,9}", ".{0,9}"), 0..9),
+    ) {
+        let values: Vec<_> = values.iter().map(|(key, value)| (key.as_str(), value.clone())).collect();
+        let level = DiagnosticLevel::Error;
+        let told = Diagnostic { level, name: &name, message: &message, hardware_id: &hardware_id, values: &values };
+        let bytes = diagnostic_message(stamp_ns, &told);
+        let mut reader = reader(&bytes);
+        prop_assert_eq!(Header::read(&mut reader), Ok(Header { stamp_ns, frame_id: "" }));
+        prop_assert_eq!(reader.u32("status"), Ok(1));
+        prop_assert_eq!(reader.u8("level"), Ok(2));
+        for text in [&name, &message, &hardware_id] {
+            prop_assert_eq!(reader.string("status"), Ok(text.as_str()));
+        }
+        prop_assert_eq!(reader.u32("values"), Ok(values.len() as u32));
+        for (key, value) in &values {
+            prop_assert_eq!(reader.string("key"), Ok(*key));
+            prop_assert_eq!(reader.string("value"), Ok(value.as_str()));
+        }
     }
 }
 

@@ -1,0 +1,142 @@
+//! What a ROS 2 system is told of the calibration that is watched: `/diagnostics`, `/eyebolt/monitor`.
+
+use super::lines;
+use crate::live::domain::now_ns;
+use anyhow::Result;
+use eyebolt::monitor::ViewReport;
+use eyebolt_live::{Bus, Outgoing};
+use eyebolt_recording::{Diagnostic, DiagnosticLevel, diagnostic_message, text_message};
+use std::time::{Duration, Instant};
+
+/// How often diagnostics are told: aggregators take for stale what says nothing for five seconds.
+const EVERY: Duration = Duration::from_secs(1);
+/// What aggregators group by.
+const NAME: &str = "eyebolt: hand-eye calibration";
+
+/// Tells a bus how the calibration stands.
+pub struct Published {
+    camera: String,
+    views: usize,
+    counted: usize,
+    /// The last view, and when it was looked at.
+    last: Option<(ViewReport, Instant)>,
+    told: Option<Instant>,
+}
+
+impl Published {
+    /// Of the camera whose optical frame is called so.
+    pub fn new(camera: &str) -> Self {
+        Self { camera: camera.to_owned(), views: 0, counted: 0, last: None, told: None }
+    }
+
+    /// Tells of a view.
+    pub fn see(&mut self, bus: &Bus, report: &ViewReport) -> Result<()> {
+        bus.publish(Outgoing::Watched, text_message(&serde_json::to_string(report)?));
+        self.views += 1;
+        self.counted += usize::from(report.counts);
+        self.last = Some((report.clone(), Instant::now()));
+        self.tell(bus);
+        Ok(())
+    }
+
+    /// Says again how it stands, if it is time to.
+    pub fn repeat(&mut self, bus: &Bus) {
+        if self.told.is_none_or(|told| told.elapsed() >= EVERY) {
+            self.tell(bus);
+        }
+    }
+
+    fn tell(&mut self, bus: &Bus) {
+        let report = self.last.as_ref().map(|(report, _)| report);
+        let (level, message) = state(report, self.counted);
+        let mut values = report.map_or_else(Vec::new, values);
+        values.push(("views", self.views.to_string()));
+        values.push(("views that count", self.counted.to_string()));
+        if let Some((_, at)) = &self.last {
+            values.push(("seconds since the last view", at.elapsed().as_secs().to_string()));
+        }
+        let diagnostic = Diagnostic {
+            level,
+            name: NAME,
+            message: &message,
+            hardware_id: &self.camera,
+            values: &values,
+        };
+        bus.publish(Outgoing::Diagnostics, diagnostic_message(now_ns(), &diagnostic));
+        self.told = Some(Instant::now());
+    }
+}
+
+/// How it stands after the last view, of which `counted` counted.
+fn state(last: Option<&ViewReport>, counted: usize) -> (DiagnosticLevel, String) {
+    match last {
+        None => (DiagnosticLevel::Stale, "the arm has not rested in two places yet".to_owned()),
+        Some(report) if report.alarm => {
+            (DiagnosticLevel::Error, format!("something moved: {}", lines::suspects(report)))
+        }
+        Some(_) if counted == 0 => {
+            (DiagnosticLevel::Warn, "unknown: no view counts so far".to_owned())
+        }
+        Some(_) => (DiagnosticLevel::Ok, "still true".to_owned()),
+    }
+}
+
+/// What the last view came to.
+fn values(report: &ViewReport) -> Vec<(&'static str, String)> {
+    let number = |name, value: Option<f64>| value.map(|value| (name, format!("{value:.3}")));
+    let drift = report.drift.as_ref();
+    let numbers = [
+        number("residual (mm)", report.residual_mm),
+        number("expected residual (mm)", report.expected_residual_mm),
+        number("drift (mm)", drift.map(|drift| drift.translation_mm)),
+        number("drift, standard deviation (mm)", drift.map(|drift| drift.translation_sigma_mm)),
+        number("drift (deg)", drift.map(|drift| drift.rotation_deg)),
+        number("drift, standard deviation (deg)", drift.map(|drift| drift.rotation_sigma_deg)),
+        number("evidence (log10, alarm from 0 on)", report.log10_evidence),
+    ];
+    let view = ("view", report.frame.clone());
+    std::iter::once(view).chain(numbers.into_iter().flatten()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report(alarm: bool) -> ViewReport {
+        ViewReport {
+            frame: "7".to_owned(),
+            counts: true,
+            why_not: None,
+            residual_mm: Some(2.0),
+            expected_residual_mm: Some(1.5),
+            seen_through_share: 0.0,
+            surprise: Some(0.7),
+            log10_evidence: Some(-3.0),
+            alarm,
+            drift: None,
+            moved: Vec::new(),
+            proposed_camera_from_base: None,
+        }
+    }
+
+    #[test]
+    fn it_is_unknown_before_it_is_true_or_not() {
+        let level = |last, counted| state(last, counted).0;
+        assert_eq!(level(None, 0), DiagnosticLevel::Stale);
+        assert_eq!(level(Some(&report(false)), 0), DiagnosticLevel::Warn);
+        assert_eq!(level(Some(&report(false)), 1), DiagnosticLevel::Ok);
+        assert_eq!(level(Some(&report(true)), 3), DiagnosticLevel::Error);
+    }
+
+    #[test]
+    fn what_is_not_known_is_not_told() {
+        let told: Vec<_> = values(&report(false)).into_iter().map(|(name, _)| name).collect();
+        let known = [
+            "view",
+            "residual (mm)",
+            "expected residual (mm)",
+            "evidence (log10, alarm from 0 on)",
+        ];
+        assert_eq!(told, known);
+    }
+}
