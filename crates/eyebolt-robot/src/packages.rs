@@ -115,6 +115,8 @@ impl PackageRoots {
             return None;
         }
         let found = self.roots_of(name, directory).find(|root| root.is_dir())?;
+        // Whoever includes a file of it does so from another folder.
+        let found = std::path::absolute(&found).unwrap_or(found);
         Some(found.display().to_string())
     }
 
@@ -192,7 +194,12 @@ impl PackageRoots {
             let problem = "a package and a path in it are needed";
             return Err(ResolveError::Unsupported { url: url.to_owned(), problem });
         }
-        let paths = self.roots_of(name, directory).map(|root| root.join(rest)).collect();
+        let mut paths: Vec<PathBuf> = Vec::new();
+        for place in self.roots_of(name, directory).map(|root| root.join(rest)) {
+            if !paths.contains(&place) {
+                paths.push(place);
+            }
+        }
         Ok(Places { paths, remedy: Remedy::GivePackage(name.to_owned()) })
     }
 

@@ -116,6 +116,18 @@ fn what_is_wrong_is_said_with_its_line() {
     refused(r#"<a b="${xacro.fatal('no', 7)}"/>"#, &["the file says: no 7"]);
 }
 
+/// As on a command line: files that a package includes lie in it, and not beside the file that includes them.
+#[test]
+fn packages_may_be_named_from_where_one_stands() {
+    // Tests run in the folder of their crate.
+    let packages = PackageRoots::new().with_directory("tests/fixtures/xacro");
+    let path = Path::new("tests/fixtures/xacro/arm.urdf.xacro");
+    let from_here = Description::read(path, &packages, &arguments(&[])).unwrap();
+    let path = common::fixture("xacro").join("arm.urdf.xacro");
+    let from_anywhere = Description::read(&path, &self::packages(), &arguments(&[])).unwrap();
+    assert_eq!(outline(&from_here.text), outline(&from_anywhere.text));
+}
+
 #[test]
 fn the_environment_is_not_read_but_may_be_stated() {
     let found = expanded(r#"<a b="$(env HOME)"/>"#, &[("env:HOME", "/there")]).unwrap();

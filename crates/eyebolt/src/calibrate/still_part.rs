@@ -11,7 +11,7 @@ mod posterior;
 use crate::observations::Observations;
 use eyebolt_registration::Start;
 use eyebolt_render::Raster;
-use links::{Fit, Still};
+use links::{Fit, Gain, Still};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ pub struct Elsewhere {
     pub shift_m: Vector3<f64>,
     /// By how much the logarithm of the likelihood grows there, since less of the links is seen through.
     pub seen_through: f64,
-    /// And since depth is nearer to their surfaces.
+    /// And since depth is nearer to their surfaces; minus infinity where too little of them would be seen.
     pub nearer: f64,
     /// And since more of what is seen lies on their surfaces.
     pub more: f64,
@@ -44,6 +44,8 @@ const SURELY: f64 = 8.0;
 /// Nearer places have depth that cameras get wrong in corners, by time of flight as by stereo, and say
 /// nothing by what is seen through.
 const FAR_M: f64 = 0.022;
+/// What stands beside or below a base looks like a part of it in one laboratory of twenty: the logarithm of that.
+const LOOKS_ALIKE: f64 = 3.0;
 /// Fewer pixels in sight say nothing.
 const LEAST_PIXELS: usize = 150;
 
@@ -127,14 +129,26 @@ impl Search<'_> {
         let coarse = least(all.copied()).unwrap_or((self.described, Vector3::zeros()));
         let (fit, shift_m) = self.finer(coarse);
         let near = self.tried(BESIDE_M.iter().map(|metres| shift_m + *metres * axis).collect());
-        let mut places: Vec<Elsewhere> = along
-            .into_iter()
-            .chain(near)
-            .chain([(fit, shift_m)])
-            .map(|(fit, shift_m)| self.elsewhere(&fit, shift_m))
-            .collect();
-        places.sort_by(|a, b| axis.dot(&a.shift_m).total_cmp(&axis.dot(&b.shift_m)));
-        StillPart { best: self.elsewhere(&fit, shift_m), along: places, axis }
+        let nearby = self.nearby(&along);
+        let elsewhere = |tried: Tried| self.elsewhere(&tried, &nearby);
+        let best = elsewhere((fit, shift_m));
+        let all = along.into_iter().chain(near).map(elsewhere).chain([best]);
+        let mut along: Vec<Elsewhere> = all.collect();
+        along.sort_by(|a, b| axis.dot(&a.shift_m).total_cmp(&axis.dot(&b.shift_m)));
+        StillPart { best, along, axis }
+    }
+
+    /// What speaks for places that are no farther than depth may be wrong at edges: nothing, and nothing for others.
+    fn nearby(&self, along: &[Tried]) -> Gain {
+        let near = along.iter().filter(|(fit, place)| {
+            place.norm() <= 1.01 * COARSE_M && fit.is_as_much_as(&self.described)
+        });
+        let gains = near.map(|(fit, _)| self.still.gain(&self.described, fit));
+        gains.fold(Gain::default(), |most, gain| Gain {
+            seen_through: most.seen_through.max(gain.seen_through),
+            more: most.more.max(gain.more),
+            ..most
+        })
     }
 
     fn tried(&self, places: Vec<Vector3<f64>>) -> Vec<Tried> {
@@ -144,16 +158,21 @@ impl Search<'_> {
         places.into_par_iter().map_init(raster, of_place).collect()
     }
 
-    /// What speaks for a place.
-    fn elsewhere(&self, fit: &Fit, shift_m: Vector3<f64>) -> Elsewhere {
+    /// What speaks for a place, and not as much for places `nearby`.
+    fn elsewhere(&self, (fit, shift_m): &Tried, nearby: &Gain) -> Elsewhere {
+        let shift_m = *shift_m;
+        if !fit.is_as_much_as(&self.described) {
+            // What is seen of the links would be something else.
+            return Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
+        }
         let gain = self.still.gain(&self.described, fit);
         let far = self.still.axis.dot(&shift_m).abs() > FAR_M;
         let if_far = |gain: f64| if far { gain } else { 0.0 };
         Elsewhere {
             shift_m,
-            seen_through: if_far(gain.seen_through),
+            seen_through: if_far(gain.seen_through - nearby.seen_through),
             nearer: gain.nearer,
-            more: if_far(gain.more),
+            more: if_far((gain.more - nearby.more).clamp(-LOOKS_ALIKE, LOOKS_ALIKE)),
         }
     }
 

@@ -24,8 +24,6 @@ const WRONG: f64 = 0.1;
 const ANYWHERE_M: f64 = 1.0;
 /// Depth cameras have errors that are alike over all of a link, of this size, metres.
 const LEAST_DEVIATION_M: f64 = 0.003;
-/// What stands beside or below a base looks like a part of it in one laboratory of twenty: the logarithm of that.
-const LOOKS_ALIKE: f64 = 3.0;
 /// Poses of a link that are the same.
 const SAME_M: f64 = 1e-3;
 const SAME_RAD: f64 = 2e-3;
@@ -223,7 +221,7 @@ impl<'a> Still<'a> {
         Gain {
             seen_through: pixels / WRONG_TOGETHER * described.less_through * through,
             nearer: pixels / CORRELATED_PIXELS * (described.off() - fit.off()),
-            more: (more * described.less_through).clamp(-LOOKS_ALIKE, LOOKS_ALIKE),
+            more: more * described.less_through,
         }
     }
 }
