@@ -24,7 +24,7 @@ pub struct Elsewhere {
     pub seen_through: f64,
     /// And since depth is nearer to their surfaces; minus infinity where too little of them would be seen.
     pub nearer: f64,
-    /// And since more of what is seen lies on their surfaces.
+    /// And since more of what is seen lies on their surfaces, and less stands before them.
     pub more: f64,
 }
 
@@ -44,7 +44,8 @@ const SURELY: f64 = 8.0;
 /// Nearer places have depth that cameras get wrong in corners, by time of flight as by stereo, and say
 /// nothing by what is seen through.
 const FAR_M: f64 = 0.022;
-/// What stands beside or below a base looks like a part of it in one laboratory of twenty: the logarithm of that.
+/// What stands beside or below a base looks like a part of it in one laboratory of twenty, and in as many what stands
+/// before it ends where another base would begin: the logarithm of that.
 const LOOKS_ALIKE: f64 = 3.0;
 /// Fewer pixels in sight say nothing.
 const LEAST_PIXELS: usize = 150;
@@ -117,13 +118,12 @@ type Tried = (Fit, Vector3<f64>);
 impl Search<'_> {
     fn found(&self) -> StillPart {
         let axis = self.still.axis;
-        if self.described.pixels < LEAST_PIXELS {
-            let along = along()
-                .into_iter()
-                .map(|metres| Elsewhere { shift_m: metres * axis, ..Elsewhere::default() });
-            return StillPart { best: Elsewhere::default(), along: along.collect(), axis };
-        }
         let along = self.tried(along().into_iter().map(|metres| metres * axis).collect());
+        if along.iter().all(|(fit, _)| fit.pixels < LEAST_PIXELS) {
+            let nothing = |(_, shift_m)| Elsewhere { shift_m, ..Elsewhere::default() };
+            let along = along.into_iter().map(nothing).collect();
+            return StillPart { best: Elsewhere::default(), along, axis };
+        }
         let beside = self.tried(beside(&axis));
         let all = along.iter().chain(&beside).filter(|(fit, _)| fit.is_as_much_as(&self.described));
         let coarse = least(all.copied()).unwrap_or((self.described, Vector3::zeros()));
@@ -147,6 +147,7 @@ impl Search<'_> {
         gains.fold(Gain::default(), |most, gain| Gain {
             seen_through: most.seen_through.max(gain.seen_through),
             more: most.more.max(gain.more),
+            uncovered: most.uncovered.max(gain.uncovered),
             ..most
         })
     }
@@ -166,13 +167,16 @@ impl Search<'_> {
             return Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
         }
         let gain = self.still.gain(&self.described, fit);
+        let more = (gain.more - nearby.more).clamp(-LOOKS_ALIKE, LOOKS_ALIKE);
+        // What a base is said to stand in counts where one is seen that stands on it.
+        let uncovered = (gain.uncovered - nearby.uncovered).clamp(0.0, more.max(0.0));
         let far = self.still.axis.dot(&shift_m).abs() > FAR_M;
         let if_far = |gain: f64| if far { gain } else { 0.0 };
         Elsewhere {
             shift_m,
             seen_through: if_far(gain.seen_through - nearby.seen_through),
             nearer: gain.nearer,
-            more: if_far((gain.more - nearby.more).clamp(-LOOKS_ALIKE, LOOKS_ALIKE)),
+            more: if_far(more + uncovered),
         }
     }
 

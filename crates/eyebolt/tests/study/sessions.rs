@@ -73,11 +73,11 @@ fn a_base_that_is_elsewhere_is_found_out() {
     assert_eq!(reasons, ["base_elsewhere"]);
     let shift = answered.still_part.as_ref().unwrap().best.shift_m;
     assert!((shift.z + 0.05).abs() < 0.005 && shift.xy().norm() < 0.005, "{shift:?}");
-    // Millimetres are hardly to be seen: such an answer is off by more than its 95 % bound, but not by far.
+    // Millimetres are hardly to be seen, and inside the 95 % bound of what the answer says of itself.
     let result = tried(lower(0.005));
     let Ending::Answered(answered) = &result.ending else { panic!("{:?}", result.ending) };
     let (error, expected) = (answered.error.unwrap(), answered.expected.unwrap());
-    assert!(error.translation_m <= 3.0 * expected.translation_m, "{error:?} {expected:?}");
+    assert!(error.translation_m <= 1.95 * expected.translation_m, "{error:?} {expected:?}");
     let plain = tried(small(Kind::Plain));
     let Ending::Answered(plain) = &plain.ending else { panic!("{:?}", plain.ending) };
     let still = plain.still_part.as_ref().unwrap().best;

@@ -38,6 +38,8 @@ pub(super) struct Gain {
     pub nearer: f64,
     /// Since more of what is seen lies on their surfaces.
     pub more: f64,
+    /// Since less stands before them.
+    pub uncovered: f64,
 }
 
 /// How the links fit in one place.
@@ -46,6 +48,8 @@ pub(super) struct Fit {
     /// Pixels that say something, and at how many of them the scene behind is seen.
     pub pixels: usize,
     through: usize,
+    /// At how many others something stands before the links.
+    hidden: usize,
     /// By how much the logarithm of the likelihood of the others is less than if all agreed perfectly.
     less: f64,
     /// And of one that is seen through.
@@ -203,7 +207,10 @@ impl<'a> Still<'a> {
             match near > 1.0 {
                 true => fit.less += (at_surface + WRONG).ln() - (near + WRONG).ln(),
                 false if seen >= z && inner.as_slice()[pixel] => fit.through += 1,
-                false => continue,
+                false => {
+                    fit.hidden += 1;
+                    continue;
+                }
             }
             fit.pixels += 1;
         }
@@ -215,13 +222,14 @@ impl<'a> Still<'a> {
     pub(super) fn gain(&self, described: &Fit, fit: &Fit) -> Gain {
         let pixels = (described.pixels * self.stride * self.stride) as f64;
         let through = described.share_through() - fit.share_through();
-        let on_surface =
-            |fit: &Fit| ((fit.pixels - fit.through) * self.stride * self.stride) as f64;
-        let more = (on_surface(fit) - on_surface(described)) / CORRELATED_PIXELS;
+        let per_patch = (self.stride * self.stride) as f64 / CORRELATED_PIXELS;
+        let patches = |pixels: usize| pixels as f64 * per_patch * described.less_through;
+        let on_surface = |fit: &Fit| patches(fit.pixels - fit.through);
         Gain {
             seen_through: pixels / WRONG_TOGETHER * described.less_through * through,
             nearer: pixels / CORRELATED_PIXELS * (described.off() - fit.off()),
-            more: more * described.less_through,
+            more: on_surface(fit) - on_surface(described),
+            uncovered: patches(described.hidden) - patches(fit.hidden),
         }
     }
 }

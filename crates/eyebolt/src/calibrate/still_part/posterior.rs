@@ -20,8 +20,12 @@ pub(super) fn mean_square(along: &[Elsewhere], axis: &Vector3<f64>, birge: f64) 
     if all <= 0.0 {
         return Matrix3::zeros();
     }
-    let evidence =
-        |place: &Elsewhere| place.seen_through + place.more + place.nearer / birge.max(1.0);
+    let evidence = |place: &Elsewhere| {
+        // What is out of the question is, however the kinds of evidence disagree.
+        let out = place.nearer == f64::NEG_INFINITY;
+        let nearer = if out { place.nearer } else { place.nearer / birge.max(1.0) };
+        place.seen_through + place.more + nearer
+    };
     // The place described has none; large numbers would overflow.
     let most = along.iter().map(evidence).fold(0.0, f64::max);
     let mut total = (1.0 - ELSEWHERE) * (-most).exp();
@@ -83,6 +87,18 @@ mod tests {
         // Large numbers are none too large.
         assert!((sigma_m(0.05, 4000.0) - 0.05).abs() < 1e-3);
         assert!(sigma_m(0.05, -4000.0) < 0.005);
+    }
+
+    #[test]
+    fn a_place_that_is_out_of_the_question_has_no_part_in_it() {
+        let near = Elsewhere { shift_m: 0.01 * Vector3::z(), ..Elsewhere::default() };
+        let shift_m = 0.1 * Vector3::z();
+        let out = Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
+        for birge in [0.5, 3.0, f64::INFINITY] {
+            let places = [Elsewhere::default(), near, out];
+            let sigma = mean_square(&places, &Vector3::z(), birge).zz.sqrt();
+            assert!(sigma > 0.0 && sigma < 0.01, "{birge}: {sigma}");
+        }
     }
 
     #[test]
