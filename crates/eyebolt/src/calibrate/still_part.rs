@@ -168,8 +168,10 @@ impl Search<'_> {
         }
         let gain = self.still.gain(&self.described, fit);
         let more = (gain.more - nearby.more).clamp(-LOOKS_ALIKE, LOOKS_ALIKE);
-        // What a base is said to stand in counts where one is seen that stands on it.
-        let uncovered = (gain.uncovered - nearby.uncovered).clamp(0.0, more.max(0.0));
+        // What a base as described stands in counts where one is seen that stands on it, and what another would stand in
+        // counts against that.
+        let uncovered =
+            (gain.uncovered - nearby.uncovered).clamp(-2.0 * LOOKS_ALIKE, more.max(0.0));
         let far = self.still.axis.dot(&shift_m).abs() > FAR_M;
         let if_far = |gain: f64| if far { gain } else { 0.0 };
         Elsewhere {
