@@ -67,8 +67,8 @@ mod tests {
             })
             .collect();
         let square = mean_square(&places, &Vector3::z(), 1.0);
-        assert!(square.xx == 0.0 && square.yy == 0.0);
-        square.zz.sqrt()
+        assert!(square.m11 == 0.0 && square.m22 == 0.0);
+        square.m33.sqrt()
     }
 
     #[test]
@@ -96,7 +96,7 @@ mod tests {
         let out = Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
         for birge in [0.5, 3.0, f64::INFINITY] {
             let places = [Elsewhere::default(), near, out];
-            let sigma = mean_square(&places, &Vector3::z(), birge).zz.sqrt();
+            let sigma = mean_square(&places, &Vector3::z(), birge).m33.sqrt();
             assert!(sigma > 0.0 && sigma < 0.01, "{birge}: {sigma}");
         }
     }
