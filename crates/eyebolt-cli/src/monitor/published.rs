@@ -121,11 +121,11 @@ mod tests {
 
     #[test]
     fn it_is_unknown_before_it_is_true_or_not() {
-        let level = |last, counted| state(last, counted).0;
-        assert_eq!(level(None, 0), DiagnosticLevel::Stale);
-        assert_eq!(level(Some(&report(false)), 0), DiagnosticLevel::Warn);
-        assert_eq!(level(Some(&report(false)), 1), DiagnosticLevel::Ok);
-        assert_eq!(level(Some(&report(true)), 3), DiagnosticLevel::Error);
+        let (quiet, alarm) = (report(false), report(true));
+        assert_eq!(state(None, 0).0, DiagnosticLevel::Stale);
+        assert_eq!(state(Some(&quiet), 0).0, DiagnosticLevel::Warn);
+        assert_eq!(state(Some(&quiet), 1).0, DiagnosticLevel::Ok);
+        assert_eq!(state(Some(&alarm), 3).0, DiagnosticLevel::Error);
     }
 
     #[test]
