@@ -5,21 +5,23 @@ use eyebolt::monitor::{Drift, Moved, Suspect, ViewReport, WhyNot};
 
 /// One view.
 pub fn view(report: &ViewReport) -> String {
-    let ViewReport { frame, residual_mm, .. } = report;
-    let residual = residual_mm.map_or_else(String::new, |mm| format!(", residual {mm:.1} mm"));
     let state = match report.why_not {
-        Some(WhyNot::Unplaced) => "does not count: a joint has no position".to_owned(),
-        Some(WhyNot::TellsNothing) => "does not count: too little of the arm is seen".to_owned(),
-        Some(WhyNot::SeenBefore) => "does not count: as when the arm last rested there".to_owned(),
-        None => report.drift.as_ref().map_or_else(String::new, drift),
+        Some(WhyNot::Unplaced) => Some("does not count: a joint has no position".to_owned()),
+        Some(WhyNot::TellsNothing) => {
+            Some("does not count: too little of the arm is seen".to_owned())
+        }
+        Some(WhyNot::SeenBefore) => {
+            Some("does not count: as when the arm last rested there".to_owned())
+        }
+        None => report.drift.as_ref().map(drift),
     };
-    let evidence = match report.log10_evidence {
-        Some(log10) => format!(", evidence 10^{log10:.1} of the limit"),
-        None => String::new(),
-    };
+    let residual = report.residual_mm.map(|mm| format!("residual {mm:.1} mm"));
+    let evidence = report.log10_evidence;
+    let evidence = evidence.map(|log10| format!("evidence 10^{log10:.1} of the limit"));
+    let told: Vec<String> = [state, residual, evidence].into_iter().flatten().collect();
     let alarm =
         if report.alarm { format!("  {}", emphasised("ALARM", false)) } else { String::new() };
-    format!("{frame}: {state}{residual}{evidence}{alarm}")
+    format!("{}: {}{alarm}", report.frame, told.join(", "))
 }
 
 fn drift(drift: &Drift) -> String {
@@ -60,9 +62,13 @@ pub fn ending(last: Option<&ViewReport>, views: usize, counted: usize) -> String
     text
 }
 
+/// Who is suspected less is not named.
+const HARDLY: f64 = 0.01;
+
 /// What moved, likeliest first.
 pub fn suspects(report: &ViewReport) -> String {
-    let found = report.moved.iter().take(3).map(suspect).collect::<Vec<_>>().join("; ");
+    let likely = report.moved.iter().take(3).filter(|moved| moved.probability >= HARDLY);
+    let found = likely.map(suspect).collect::<Vec<_>>().join("; ");
     if found.is_empty() { "cannot be told".to_owned() } else { found }
 }
 
@@ -77,4 +83,35 @@ fn suspect(moved: &Moved) -> String {
         }
     };
     format!("{what} ({:.0} %)", 100.0 * moved.probability)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_known_is_told() {
+        let mut report = ViewReport {
+            frame: "7".to_owned(),
+            counts: true,
+            why_not: None,
+            residual_mm: Some(2.0),
+            expected_residual_mm: None,
+            seen_through_share: 0.0,
+            surprise: None,
+            log10_evidence: Some(-3.0),
+            alarm: false,
+            drift: None,
+            moved: Vec::new(),
+            proposed_camera_from_base: None,
+        };
+        assert_eq!(view(&report), "7: residual 2.0 mm, evidence 10^-3.0 of the limit");
+        report.why_not = Some(WhyNot::TellsNothing);
+        (report.residual_mm, report.log10_evidence) = (None, None);
+        assert_eq!(view(&report), "7: does not count: too little of the arm is seen");
+        assert_eq!(suspects(&report), "cannot be told");
+        let suspect = |probability| Moved { what: Suspect::Camera, probability, joint_deg: None };
+        report.moved = vec![suspect(0.997), suspect(0.003)];
+        assert_eq!(suspects(&report), "the camera (100 %)");
+    }
 }

@@ -89,6 +89,10 @@ def panned(answer, degrees):
     back = [0.0, -s, 0.0, c]
     camera["rotation_xyzw"] = times(back, camera["rotation_xyzw"])
     camera["translation_m"] = rotated(back, camera["translation_m"])
+    for pose in (base, camera):
+        columns = [rotated(pose["rotation_xyzw"], axis) for axis in ([1, 0, 0], [0, 1, 0], [0, 0, 1])]
+        columns.append(pose["translation_m"])
+        pose["matrix"] = [[column[row] for column in columns] for row in range(3)] + [[0.0, 0.0, 0.0, 1.0]]
     return answer
 
 
