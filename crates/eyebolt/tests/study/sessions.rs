@@ -73,6 +73,9 @@ fn a_base_that_is_elsewhere_is_found_out() {
     assert_eq!(reasons, ["base_elsewhere"]);
     let shift = answered.still_part.as_ref().unwrap().best.shift_m;
     assert!((shift.z + 0.05).abs() < 0.005 && shift.xy().norm() < 0.005, "{shift:?}");
+    // One that is higher stands in the table as it is described.
+    let result = tried(lower(-0.05));
+    assert!(!result.ending.is_trusted(), "{:?}", result.ending);
     // Millimetres are hardly to be seen, and inside the 95 % bound of what the answer says of itself.
     let result = tried(lower(0.005));
     let Ending::Answered(answered) = &result.ending else { panic!("{:?}", result.ending) };
