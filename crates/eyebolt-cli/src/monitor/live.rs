@@ -8,7 +8,7 @@ use crate::front::Terminal;
 use crate::output;
 use crate::progress::Interrupt;
 use crate::robots::told;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use eyebolt::export::{FrameName, SavedCalibration};
 use eyebolt::monitor::{Known, Monitor, Watched, look};
 use eyebolt::observations::Observations;
@@ -29,11 +29,18 @@ const HEARD: &str = "what was heard";
 pub fn watch(arguments: &Arguments, calibration: &SavedCalibration) -> Result<Ending> {
     let mut ears = Ears::new(arguments, calibration)?;
     let mut teller = Teller::new(arguments.json);
-    let Some((arm, first)) = ears.first_rests(calibration)? else { return Ok(teller.end(false)) };
     let options = arguments.options();
     let failed = |error: RecordError| anyhow::Error::new(error).context(HEARD);
     let cache = arguments.cache.open();
-    let observations = observe(first.source(), &arm, &cache, &options).map_err(failed)?;
+    let (arm, first, observations) = loop {
+        let Some((arm, first)) = ears.first_rests(calibration)? else {
+            return Ok(teller.end(false));
+        };
+        match observe(first.source(), &arm, &cache, &options) {
+            Ok(observations) => break (arm, first, observations),
+            Err(error) => ears.complain(&failed(error)),
+        }
+    };
     let known = Known::new(calibration, &observations, arguments.even_if_refused)?;
     let mut monitor = Monitor::new(&arm, &observations, known, &arguments.rate());
     let mut next = Some(first);
@@ -53,15 +60,11 @@ pub fn watch(arguments: &Arguments, calibration: &SavedCalibration) -> Result<En
             match looked {
                 Ok(()) => {}
                 // One rest of many.
-                Err(Ended::Record(error)) => {
-                    output::complain(&format!("note: {}", causes(&failed(error))));
-                }
+                Err(Ended::Record(error)) => ears.complain(&failed(error)),
                 Err(Ended::Output(error)) => return Err(error),
             }
         } else {
-            output::complain(
-                "the camera's images are of another size or focal length now: not looked at",
-            );
+            ears.complain(&anyhow!("the camera's images are of another size or focal length now"));
         }
         next = ears.rest(&arm)?;
     }
@@ -96,6 +99,13 @@ impl<'a> Ears<'a> {
         Ok(Self { arguments, options, bus, interrupt, rests, published })
     }
 
+    /// Says why a rest is not looked at.
+    fn complain(&mut self, error: &anyhow::Error) {
+        let why = causes(error);
+        output::complain(&format!("note: {why}: not looked at"));
+        self.published.fail(&self.bus, &why);
+    }
+
     /// What was heard around the next rest; `None` if somebody ended it.
     fn messages(&mut self) -> Option<Vec<Incoming>> {
         while self.interrupt.check().is_ok() {
@@ -121,7 +131,7 @@ impl<'a> Ears<'a> {
             let recording = match self.recording(&heard) {
                 Ok(recording) => recording,
                 Err(error) => {
-                    output::complain(&format!("note: {}", causes(&error)));
+                    self.complain(&error);
                     heard.clear();
                     continue;
                 }
@@ -129,8 +139,13 @@ impl<'a> Ears<'a> {
             let arm = told(self.arguments.robot.arm(Path::new(HEARD), &recording)?, &Terminal);
             check_base(calibration, &arm)?;
             let recording = self.arguments.robot.noted(recording, &arm)?;
-            if configurations(&recording, &arm)? >= FEW {
-                return Ok(Some((arm, recording)));
+            match configurations(&recording, &arm) {
+                Ok(count) if count >= FEW => return Ok(Some((arm, recording))),
+                Ok(_) => {}
+                Err(error) => {
+                    self.complain(&error);
+                    heard.clear();
+                }
             }
             if heard.iter().map(|message| message.data.len()).sum::<usize>() > MOST_BYTES {
                 heard.clear();
@@ -145,7 +160,7 @@ impl<'a> Ears<'a> {
             match self.recording(&messages) {
                 Ok(recording) => return self.arguments.robot.noted(recording, arm).map(Some),
                 // One rest of many.
-                Err(error) => output::complain(&format!("note: {}", causes(&error))),
+                Err(error) => self.complain(&error),
             }
         }
     }

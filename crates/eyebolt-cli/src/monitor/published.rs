@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// How often diagnostics are told: aggregators take for stale what says nothing for five seconds.
 const EVERY: Duration = Duration::from_secs(1);
+/// A state that was seen longer ago is no longer known.
+const KNOWN_FOR: Duration = Duration::from_secs(600);
 /// What aggregators group by.
 const NAME: &str = "eyebolt: hand-eye calibration";
 
@@ -21,12 +23,21 @@ pub struct Published {
     /// The last view, and when it was looked at.
     last: Option<(ViewReport, Instant)>,
     told: Option<Instant>,
+    /// Why the last rest could not be looked at.
+    trouble: Option<String>,
 }
 
 impl Published {
     /// Of the camera whose optical frame is called so.
     pub fn new(camera: &str) -> Self {
-        Self { camera: camera.to_owned(), views: 0, counted: 0, last: None, told: None }
+        Self {
+            camera: camera.to_owned(),
+            views: 0,
+            counted: 0,
+            last: None,
+            told: None,
+            trouble: None,
+        }
     }
 
     /// Tells of a view.
@@ -35,8 +46,15 @@ impl Published {
         self.views += 1;
         self.counted += usize::from(report.counts);
         self.last = Some((report.clone(), Instant::now()));
+        self.trouble = None;
         self.tell(bus);
         Ok(())
+    }
+
+    /// Tells why a rest could not be looked at, until one is.
+    pub fn fail(&mut self, bus: &Bus, why: &str) {
+        self.trouble = Some(why.to_owned());
+        self.tell(bus);
     }
 
     /// Says again how it stands, if it is time to.
@@ -48,7 +66,15 @@ impl Published {
 
     fn tell(&mut self, bus: &Bus) {
         let report = self.last.as_ref().map(|(report, _)| report);
-        let (level, message) = state(report, self.counted);
+        let known = self.last.as_ref().filter(|(_, at)| at.elapsed() < KNOWN_FOR);
+        let known = known.map(|(report, _)| report);
+        let (level, message) = match &self.trouble {
+            // What was found out stays found out.
+            Some(why) if !report.is_some_and(|report| report.alarm) => {
+                (DiagnosticLevel::Warn, format!("not looked at: {why}"))
+            }
+            _ => state(known.or(report.filter(|report| report.alarm)), self.counted),
+        };
         let mut values = report.map_or_else(Vec::new, values);
         values.push(("views", self.views.to_string()));
         values.push(("views that count", self.counted.to_string()));
@@ -70,7 +96,7 @@ impl Published {
 /// How it stands after the last view, of which `counted` counted.
 fn state(last: Option<&ViewReport>, counted: usize) -> (DiagnosticLevel, String) {
     match last {
-        None => (DiagnosticLevel::Stale, "the arm has not rested in two places yet".to_owned()),
+        None => (DiagnosticLevel::Stale, "no resting arm was looked at lately".to_owned()),
         Some(report) if report.alarm => {
             (DiagnosticLevel::Error, format!("something moved: {}", lines::suspects(report)))
         }

@@ -254,14 +254,17 @@ class Checks:
         said = open(self.work / f"monitor_{name}", "wb")
         monitor = subprocess.Popen([*command, "--cache", self.work / "cache", *ARM], stdout=said, stderr=subprocess.STDOUT)
         end, told = time.monotonic() + PATIENCE_S, []
-        while not told:
-            assert monitor.poll() is None and time.monotonic() < end, (self.work / f"monitor_{name}").read_text()
+        try:
+            while not told:
+                assert monitor.poll() is None and time.monotonic() < end, (self.work / f"monitor_{name}").read_text()
+                told += diagnostics.take(100)
+                time.sleep(0.05)
+            published(publish(self.recording, self.domain, "--stamp-now", "--linger", 8))
             told += diagnostics.take(100)
-            time.sleep(0.05)
-        published(publish(self.recording, self.domain, "--stamp-now", "--linger", 8))
-        told += diagnostics.take(100)
-        monitor.send_signal(signal.SIGINT)
-        code = monitor.wait(timeout=PATIENCE_S)
+            monitor.send_signal(signal.SIGINT)
+            code = monitor.wait(timeout=PATIENCE_S)
+        finally:
+            monitor.kill()
         last = told[-1].status[0]
         seen = {value.key: value.value for value in last.values}
         print(f"  {name}: exit {code}; {len(told)} messages on /diagnostics, the last: level {last.level}, {last.message!r}, {seen}")

@@ -21,7 +21,7 @@ pub struct Calibration {
     pub camera_moved: Vec<CameraMoved>,
     /// Parts that move with a link and are not in the description.
     pub unknown_parts: Vec<UnknownPart>,
-    /// Where the links that never move fit best, if they are seen.
+    /// Where the links that never move may be; `None` if nothing turns.
     pub still_part: Option<StillPart>,
     /// How far off the answer is expected to be.
     pub error: Option<ErrorEstimate>,

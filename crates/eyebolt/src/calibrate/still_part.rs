@@ -15,24 +15,26 @@ use links::{Fit, Gain, Still};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-/// Another place of the links that never move.
+/// Another place of the links that never move, and what speaks for it: by how much the logarithm of the likelihood grows
+/// there, beyond what it grows by within a centimetre of where the description has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elsewhere {
     /// How far it is from where the description has them, base frame, metres.
     pub shift_m: Vector3<f64>,
-    /// By how much the logarithm of the likelihood grows there, since less of the links is seen through.
+    /// Since less of the links is seen through; nothing near the place described, where cameras are wrong at edges.
     pub seen_through: f64,
-    /// And since depth is nearer to their surfaces; minus infinity where too little of them would be seen.
+    /// Since depth is nearer to their surfaces; minus infinity where too little of them would be seen.
     pub nearer: f64,
-    /// And since more of what is seen lies on their surfaces, and less stands before them.
+    /// Since more of what is seen lies on their surfaces, and less stands before them; never more than what often looks
+    /// like it without being it.
     pub more: f64,
 }
 
 /// Where the links that never move may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StillPart {
-    /// Where they fit best; where the description has them, if hardly anything is seen of them.
-    pub best: Elsewhere,
+    /// Where they fit best; `None` if hardly anything is seen of them.
+    pub best: Option<Elsewhere>,
     /// Other places along the axis of the first joint, in their order.
     along: Vec<Elsewhere>,
     /// That axis, base frame.
@@ -58,13 +60,16 @@ impl StillPart {
         posterior::mean_square(&self.along, &self.axis, birge)
     }
 
+    /// Of links of which nothing is seen.
+    fn unseen(axis: Vector3<f64>) -> Self {
+        let place = |metres: f64| Elsewhere { shift_m: metres * axis, ..Elsewhere::default() };
+        Self { best: None, along: along().into_iter().map(place).collect(), axis }
+    }
+
     /// How far it is from where the description has it, if that is surely somewhere else.
     pub fn sure_shift_m(&self) -> Vector3<f64> {
-        if self.best.seen_through > SURELY {
-            self.axis * self.axis.dot(&self.best.shift_m)
-        } else {
-            Vector3::zeros()
-        }
+        let sure = self.best.filter(|best| best.seen_through > SURELY);
+        sure.map_or_else(Vector3::zeros, |best| self.axis * self.axis.dot(&best.shift_m))
     }
 }
 
@@ -83,7 +88,7 @@ const BESIDE_M: [f64; 10] =
     [-0.0065, -0.0045, -0.003, -0.0015, -0.0008, 0.0008, 0.0015, 0.003, 0.0045, 0.0065];
 
 /// Where the links of the configurations `used` that never move may be with the arm at `at`, of whose
-/// surfaces depth is off by `deviation_m`; `None` if all links move, or none does.
+/// surfaces depth is off by `deviation_m`; `None` if nothing turns.
 pub(super) fn still_part(
     observations: &Observations,
     used: &[usize],
@@ -91,12 +96,15 @@ pub(super) fn still_part(
     at: &Start,
     deviation_m: f64,
 ) -> Option<StillPart> {
-    let still = Still::new(observations, used, rasters, at, deviation_m)?;
+    let first = &observations.configurations.get(*used.first()?)?.posture;
+    let axis = first.axes().first()?.along_in_base.into_inner();
+    let Some(still) = Still::new(observations, used, rasters, at, deviation_m) else {
+        return Some(StillPart::unseen(axis));
+    };
     let axis = still.axis;
     let search = Search { observations, described: still.fit_as_described(), still };
     let found = search.found();
     tracing::debug!(
-        shift_mm = ?(1e3 * found.best.shift_m).as_slice(),
         best = ?found.best,
         described = ?search.described,
         spread_mm = ?found.mean_square(1.0).diagonal().map(|square| 1e3 * square.sqrt()).as_slice(),
@@ -120,9 +128,7 @@ impl Search<'_> {
         let axis = self.still.axis;
         let along = self.tried(along().into_iter().map(|metres| metres * axis).collect());
         if along.iter().all(|(fit, _)| fit.pixels < LEAST_PIXELS) {
-            let nothing = |(_, shift_m)| Elsewhere { shift_m, ..Elsewhere::default() };
-            let along = along.into_iter().map(nothing).collect();
-            return StillPart { best: Elsewhere::default(), along, axis };
+            return StillPart::unseen(axis);
         }
         let beside = self.tried(beside(&axis));
         let all = along.iter().chain(&beside).filter(|(fit, _)| fit.is_as_much_as(&self.described));
@@ -131,8 +137,8 @@ impl Search<'_> {
         let near = self.tried(BESIDE_M.iter().map(|metres| shift_m + *metres * axis).collect());
         let nearby = self.nearby(&along);
         let elsewhere = |tried: Tried| self.elsewhere(&tried, &nearby);
-        let best = elsewhere((fit, shift_m));
-        let all = along.into_iter().chain(near).map(elsewhere).chain([best]);
+        let best = self.is_seen().then(|| elsewhere((fit, shift_m)));
+        let all = along.into_iter().chain(near).map(elsewhere).chain(best);
         let mut along: Vec<Elsewhere> = all.collect();
         along.sort_by(|a, b| axis.dot(&a.shift_m).total_cmp(&axis.dot(&b.shift_m)));
         StillPart { best, along, axis }
@@ -152,6 +158,11 @@ impl Search<'_> {
         })
     }
 
+    /// Whether enough is seen where the description has the links to compare with.
+    fn is_seen(&self) -> bool {
+        self.described.pixels >= LEAST_PIXELS
+    }
+
     fn tried(&self, places: Vec<Vector3<f64>>) -> Vec<Tried> {
         let of_place =
             |raster: &mut Raster, place: Vector3<f64>| (self.still.fit(raster, &place), place);
@@ -162,7 +173,8 @@ impl Search<'_> {
     /// What speaks for a place, and not as much for places `nearby`.
     fn elsewhere(&self, (fit, shift_m): &Tried, nearby: &Gain) -> Elsewhere {
         let shift_m = *shift_m;
-        if !fit.is_as_much_as(&self.described) {
+        let is_seen = self.is_seen();
+        if is_seen && !fit.is_as_much_as(&self.described) {
             // What is seen of the links would be something else.
             return Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
         }
@@ -176,8 +188,11 @@ impl Search<'_> {
         let if_far = |gain: f64| if far { gain } else { 0.0 };
         Elsewhere {
             shift_m,
-            seen_through: if_far(gain.seen_through - nearby.seen_through),
-            nearer: gain.nearer,
+            seen_through: match is_seen {
+                true => if_far(gain.seen_through - nearby.seen_through),
+                false => 0.0,
+            },
+            nearer: if is_seen { gain.nearer } else { 0.0 },
             more: if_far(more + uncovered),
         }
     }

@@ -33,7 +33,7 @@ pub(crate) struct Findings<'a> {
     pub outcomes: &'a [ConfigurationOutcome],
     pub outside_limits: &'a [OutsideLimits],
     pub error: &'a ErrorEstimate,
-    /// Where the links that never move fit best, if they are seen.
+    /// Where the links that never move may be; `None` if nothing turns.
     pub still_part: Option<&'a StillPart>,
     /// Two joints that fit better with their names exchanged.
     pub exchanged: Option<[String; 2]>,

@@ -22,7 +22,7 @@ pub struct Answered {
     pub error_after_bump: Option<Deviation>,
     /// What the answer says it is off by.
     pub expected: Option<Deviation>,
-    /// Where the links that never move fit best, if they were seen.
+    /// Where the links that never move may be.
     pub still_part: Option<StillPart>,
     /// Quantiles of the error at [`super::LEVELS`] that the answer's covariance has.
     pub quantiles: Option<[Deviation; 3]>,

@@ -203,14 +203,15 @@ impl<'a> Still<'a> {
                     let off = f64::from(nearest.distance_m) / self.deviation_m;
                     at_surface * (-0.5 * off * off).exp()
                 });
-            // What stands before the links hides them, wherever they are.
             match near > 1.0 {
                 true => fit.less += (at_surface + WRONG).ln() - (near + WRONG).ln(),
                 false if seen >= z && inner.as_slice()[pixel] => fit.through += 1,
-                false => {
+                // What stands before the links hides them, wherever they are.
+                false if seen < z => {
                     fit.hidden += 1;
                     continue;
                 }
+                false => continue,
             }
             fit.pixels += 1;
         }

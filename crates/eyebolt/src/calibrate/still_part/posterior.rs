@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 /// How likely a base is to be elsewhere before anything is seen of it: plates below it, another variant's height, a
 /// description that somebody measured.
 const ELSEWHERE: f64 = 0.25;
-/// By as much: bases of described arms are millimetres off now and then, and hardly ever far. Half the width of a
-/// density with the tails of Student's of three degrees of freedom, of which this is the standard deviation.
+/// By as much: bases of described arms are millimetres off now and then, and hardly ever far. Standard deviation of
+/// Student's density of three degrees of freedom.
 const USUAL_M: f64 = 0.01;
 
 /// The mean square of the shifts of `along`, which are in the order of their place on `axis`. A base is where it is described
@@ -29,13 +29,13 @@ pub(super) fn mean_square(along: &[Elsewhere], axis: &Vector3<f64>, birge: f64) 
     // The place described has none; large numbers would overflow.
     let most = along.iter().map(evidence).fold(0.0, f64::max);
     let mut total = (1.0 - ELSEWHERE) * (-most).exp();
-    let mut square = Matrix3::zeros();
-    for (place, prior) in along.iter().zip(prior) {
+    let mut square = 0.0;
+    for ((place, at), prior) in along.iter().zip(&at).zip(prior) {
         let weight = ELSEWHERE * prior / all * (evidence(place) - most).exp();
         total += weight;
-        square += weight * place.shift_m * place.shift_m.transpose();
+        square += weight * at * at;
     }
-    square / total
+    square / total * axis * axis.transpose()
 }
 
 /// Not normalised.
@@ -63,7 +63,9 @@ mod tests {
                 let metres = 1e-3 * f64::from(step);
                 let near = (metres - best_m).abs() < 2e-3;
                 let seen_through = if near { evidence } else { 0.0 };
-                Elsewhere { shift_m: metres * Vector3::z(), seen_through, ..Elsewhere::default() }
+                // What a place is off across the axis is the answer's own error.
+                let shift_m = Vector3::new(0.01, 0.0, metres);
+                Elsewhere { shift_m, seen_through, ..Elsewhere::default() }
             })
             .collect();
         let square = mean_square(&places, &Vector3::z(), 1.0);
@@ -93,7 +95,7 @@ mod tests {
     fn a_place_that_is_out_of_the_question_has_no_part_in_it() {
         let near = Elsewhere { shift_m: 0.01 * Vector3::z(), ..Elsewhere::default() };
         let shift_m = 0.1 * Vector3::z();
-        let out = Elsewhere { shift_m, nearer: f64::NEG_INFINITY, ..Elsewhere::default() };
+        let out = Elsewhere { shift_m, nearer: f64::NEG_INFINITY, seen_through: 40.0, more: 0.0 };
         for birge in [0.5, 3.0, f64::INFINITY] {
             let places = [Elsewhere::default(), near, out];
             let sigma = mean_square(&places, &Vector3::z(), birge).m33.sqrt();
