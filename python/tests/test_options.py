@@ -24,8 +24,9 @@ FRAMES = {"depth", "camera", "joints", "joint_names", "names", "masks", "backgro
     [
         (eyebolt.calibrate, "calibrate", MARKERS),
         (eyebolt.segment, "segment", set()),
-        (eyebolt.pose, "pose", set()),
-        (eyebolt.monitor, "monitor", {"calibration"}),
+        # What is still being recorded is the program's.
+        (eyebolt.pose, "pose", {"follow"}),
+        (eyebolt.monitor, "monitor", {"calibration", "ros_domain", "localhost_only"}),
         (eyebolt.label, "label", {"recordings", "merge"}),
         (eyebolt.evaluate_models, "evaluate", {"recordings"}),
         (eyebolt.train, "train", {"what", "from", "from_"}),

@@ -55,7 +55,8 @@ def test_a_bumped_camera_is_found_out(calibration: eyebolt.Calibration, simulate
     del told["backgrounds"]
     still = eyebolt.monitor(calibration, **told)
     assert not still.alarm and still.views and still.moved == []
-    bumped = eyebolt.simulate(seed=3, configurations=5, frames=2, backgrounds=2, bump=(30, 2))
+    # Bumped after half of the configurations; three views that agree may be needed.
+    bumped = eyebolt.simulate(seed=3, configurations=9, frames=1, backgrounds=2, bump=(10, 1))
     told.update(depth=bumped.depth, joints=bumped.joints, names=bumped.names)
     watch = eyebolt.monitor(calibration, **told)
     assert watch.alarm and watch.moved
@@ -77,7 +78,7 @@ def test_networks_on_arrays_and_recordings(session: Path, simulated: eyebolt.Sim
     assert seen.names == simulated.names and seen.damaged == []
     assert set(np.unique(seen.labels)) <= {0, 1, 2, 255}
     assert 0.001 < seen.arm.mean() < 0.5
-    of_file = eyebolt.segment(session, model=MODELS / "shackle")
+    of_file = eyebolt.segment(session, model=MODELS / "shackle", networks_alone=True)
     assert np.mean(of_file.labels == seen.labels) > 0.999
     poses = eyebolt.pose(simulated.depth[:2], simulated.camera, model=MODELS / "shackle", robot="shackle")
     assert [pose.frame for pose in poses] == ["0", "1"]

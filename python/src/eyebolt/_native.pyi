@@ -9,6 +9,27 @@ from numpy.typing import NDArray
 from ._arrays import Arrays
 from ._call import Call
 
+__all__ = [
+    "Calibration",
+    "calibrate",
+    "check",
+    "evaluate",
+    "export",
+    "monitor",
+    "save",
+    "write",
+    "label",
+    "train",
+    "pose",
+    "segment",
+    "options",
+    "program",
+    "robots",
+    "version",
+    "record_simulation",
+    "simulate",
+]
+
 @final
 class Calibration:
     def json(self) -> str: ...

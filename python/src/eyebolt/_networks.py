@@ -57,9 +57,20 @@ def segment(
     camera: Optional[CameraLike] = None,
     *,
     model: PathLike,
+    robot: Optional[PathLike] = None,
     names: Optional[Sequence[str]] = None,
+    base: Optional[str] = None,
+    end_effector: Optional[str] = None,
+    package_path: Union[PathLike, Sequence[PathLike], None] = None,
+    xacro_arg: Optional[Mapping[str, object]] = None,
+    joint: Optional[Mapping[str, float]] = None,
+    joint_prefix: Optional[str] = None,
+    allow_outside_files: bool = False,
+    networks_alone: bool = False,
     depth_unit: Union[str, float, None] = None,
     threads: Optional[int] = None,
+    cache: Optional[PathLike] = None,
+    no_cache: bool = False,
     progress: Progress = None,
     **bag: Unpack[BagOptions],
 ) -> Segmentation:
@@ -68,7 +79,10 @@ def segment(
     Args:
         depth, camera, names, depth_unit: A recording or frames, as of `calibrate`.
         model: Folder of a model that `train` made, such as `models/any-arm`.
-        threads, progress, bag: As of `calibrate`.
+        robot, base, end_effector, package_path, xacro_arg, joint, joint_prefix, allow_outside_files: As of `calibrate`; with them, the
+            pose that explains what networks say decides which pixels are the end-effector's.
+        networks_alone: What the networks say, without that.
+        threads, cache, no_cache, progress, bag: As of `calibrate`.
 
     Raises:
         Error: Frames or model cannot be read.
