@@ -59,7 +59,7 @@ fn told(ending: &Ending) -> (&'static str, String) {
     let most = quantiles.and_then(|quantiles| Some(quantiles.get(level)?.translation_m));
     let off = error.map(|error| error.translation_m);
     let reasons: Vec<&str> = refusals.iter().map(|refusal| refusal.name.as_str()).collect();
-    let found = still_part.as_ref().and_then(|still| still.best).map(|still| {
+    let found = still_part.map(|still| {
         let shift: [f64; 3] = still.shift_m.map(|x| (1e4 * x).round() / 10.0).into();
         format!(
             "base {shift:?} mm, evidence {:.1}, {:.1}, {:.1}",

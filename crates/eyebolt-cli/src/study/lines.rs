@@ -60,8 +60,7 @@ fn tell(answered: &Answered, line: &mut Value) -> Result<()> {
     if let Some(after) = answered.error_after_bump {
         line["error_after_bump"] = serde_json::to_value(off(after))?;
     }
-    let base = answered.still_part.as_ref().and_then(|still| still.best);
-    if let Some(Elsewhere { shift_m, seen_through, nearer, more }) = base {
+    if let Some(Elsewhere { shift_m, seen_through, nearer, more }) = answered.still_part {
         line["base_shift_mm"] = serde_json::to_value(shift_m.map(|m| 1e3 * m).as_slice())?;
         line["base_shift_evidence"] =
             json!({ "seen_through": seen_through, "nearer": nearer, "more": more });

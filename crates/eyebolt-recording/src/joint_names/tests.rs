@@ -1,22 +1,10 @@
 mod all_else;
+mod support;
 
 use super::*;
 use crate::InMemory;
 use eyebolt_geometry::Distortion;
-use eyebolt_robot::PackageRoots;
-
-fn robot(joints: &[&str]) -> Robot {
-    let mut urdf = String::from(r#"<robot><link name="base"/>"#);
-    let mut parent = "base".to_owned();
-    for joint in joints {
-        urdf += &format!(
-            r#"<link name="of_{joint}"/><joint name="{joint}" type="continuous">
-            <parent link="{parent}"/><child link="of_{joint}"/></joint>"#
-        );
-        parent = format!("of_{joint}");
-    }
-    Robot::from_urdf_str(&(urdf + "</robot>"), None, &PackageRoots::new()).unwrap()
-}
+use support::robot;
 
 fn read(recorded: &[(&str, f64)], joints: &[&str], notes: JointNotes) -> Vec<(String, f64)> {
     let camera = PinholeCamera::new(4, 3, 4.0, 4.0, 1.5, 1.0, Distortion::None).unwrap();

@@ -1,6 +1,6 @@
 //! How a session ends.
 
-use crate::calibrate::{Deviation, Reason, StillPart};
+use crate::calibrate::{Deviation, Elsewhere, Reason};
 
 /// How a session ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,8 @@ pub struct Answered {
     pub error_after_bump: Option<Deviation>,
     /// What the answer says it is off by.
     pub expected: Option<Deviation>,
-    /// Where the links that never move may be.
-    pub still_part: Option<StillPart>,
+    /// Where the links that never move fit best, if they are seen.
+    pub still_part: Option<Elsewhere>,
     /// Quantiles of the error at [`super::LEVELS`] that the answer's covariance has.
     pub quantiles: Option<[Deviation; 3]>,
     /// Why it is refused; empty where it is trusted.

@@ -107,7 +107,7 @@ fn answered(calibration: &Calibration, plan: &Plan<'_>) -> Answered {
     Answered {
         error: off(later.unwrap_or(&first)),
         error_after_bump: after.as_ref().and_then(off),
-        still_part: calibration.still_part.clone(),
+        still_part: calibration.still_part.as_ref().and_then(|still| still.best),
         expected: calibration.error.as_ref().map(|error| error.expected),
         quantiles: calibration.error.as_ref().zip(pose).map(|(e, pose)| quantiles(e, pose, &at)),
         refusals: match &calibration.verdict {

@@ -71,7 +71,7 @@ fn a_base_that_is_elsewhere_is_found_out() {
     assert!((error.translation_m - 0.05).abs() < 0.005, "{error:?}");
     let reasons: Vec<&str> = answered.refusals.iter().map(|r| r.name.as_str()).collect();
     assert_eq!(reasons, ["base_elsewhere"]);
-    let shift = answered.still_part.as_ref().unwrap().best.unwrap().shift_m;
+    let shift = answered.still_part.unwrap().shift_m;
     assert!((shift.z + 0.05).abs() < 0.005 && shift.xy().norm() < 0.005, "{shift:?}");
     // One that is higher stands in the table as it is described.
     let result = tried(lower(-0.05));
@@ -90,7 +90,7 @@ fn a_base_that_is_elsewhere_is_found_out() {
     assert!(error.translation_m <= 1.95 * expected.translation_m, "{error:?} {expected:?}");
     let plain = tried(small(Kind::Plain));
     let Ending::Answered(plain) = &plain.ending else { panic!("{:?}", plain.ending) };
-    let still = plain.still_part.as_ref().unwrap().best.unwrap();
+    let still = plain.still_part.unwrap();
     assert!(still.seen_through < 1.0 && still.shift_m.norm() < 0.005, "{still:?}");
 }
 

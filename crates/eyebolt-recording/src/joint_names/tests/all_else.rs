@@ -1,6 +1,6 @@
 //! Of what a source tells, only the joints change.
 
-use super::robot;
+use super::support::robot;
 use crate::Recording;
 use crate::color::{CameraPicture, ColorImage};
 use crate::error::RecordingError;
