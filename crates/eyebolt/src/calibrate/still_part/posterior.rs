@@ -1,6 +1,6 @@
 //! How far off a base is likely to be, by what speaks for each place along the first joint's axis.
 
-use super::Elsewhere;
+use super::elsewhere::Elsewhere;
 use nalgebra::{Matrix3, Vector3};
 
 /// How likely a base is to be elsewhere before anything is seen of it: plates below it, another variant's height, a
