@@ -86,12 +86,12 @@ fn suspect(moved: &Moved) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    #[test]
-    fn only_what_is_known_is_told() {
-        let mut report = ViewReport {
+    /// Of a view that counts, and in which nothing moved.
+    pub fn report() -> ViewReport {
+        ViewReport {
             frame: "7".to_owned(),
             counts: true,
             why_not: None,
@@ -104,7 +104,12 @@ mod tests {
             drift: None,
             moved: Vec::new(),
             proposed_camera_from_base: None,
-        };
+        }
+    }
+
+    #[test]
+    fn only_what_is_known_is_told() {
+        let mut report = report();
         assert_eq!(view(&report), "7: residual 2.0 mm, evidence 10^-3.0 of the limit");
         report.why_not = Some(WhyNot::TellsNothing);
         (report.residual_mm, report.log10_evidence) = (None, None);

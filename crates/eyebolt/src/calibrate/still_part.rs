@@ -83,13 +83,13 @@ pub(super) fn still_part(
     at: &Start,
     deviation_m: f64,
 ) -> Option<StillPart> {
+    // No offset of a joint turns the first one's axis.
     let first = &observations.configurations.get(*used.first()?)?.posture;
     let axis = first.axes().first()?.along_in_base.into_inner();
     let Some(still) = Still::new(observations, used, rasters, at, deviation_m) else {
         return Some(StillPart::unseen(axis));
     };
-    let axis = still.axis;
-    let search = Search { observations, described: still.fit_as_described(), still };
+    let search = Search { observations, axis, described: still.fit_as_described(), still };
     let found = search.found();
     tracing::debug!(
         best = ?found.best,
@@ -103,6 +103,7 @@ pub(super) fn still_part(
 
 struct Search<'a> {
     observations: &'a Observations,
+    axis: Vector3<f64>,
     still: Still<'a>,
     described: Fit,
 }
@@ -112,7 +113,7 @@ type Tried = (Fit, Vector3<f64>);
 
 impl Search<'_> {
     fn found(&self) -> StillPart {
-        let axis = self.still.axis;
+        let axis = self.axis;
         let along = self.tried(along().into_iter().map(|metres| metres * axis).collect());
         if along.iter().all(|(fit, _)| fit.pixels < LEAST_PIXELS) {
             return StillPart::unseen(axis);
@@ -171,7 +172,7 @@ impl Search<'_> {
         // counts against that.
         let uncovered =
             (gain.uncovered - nearby.uncovered).clamp(-2.0 * LOOKS_ALIKE, more.max(0.0));
-        let far = self.still.axis.dot(&shift_m).abs() > FAR_M;
+        let far = self.axis.dot(&shift_m).abs() > FAR_M;
         let if_far = |gain: f64| if far { gain } else { 0.0 };
         Elsewhere {
             shift_m,
@@ -186,7 +187,7 @@ impl Search<'_> {
 
     /// The best place near to `begin`.
     fn finer(&self, begin: Tried) -> Tried {
-        let axis = self.still.axis;
+        let axis = self.axis;
         let [aside, other] = across(&axis);
         let directions = [axis, -axis, aside, -aside, other, -other];
         let mut best = begin;

@@ -83,8 +83,6 @@ pub(super) struct Still<'a> {
     links: ArmModel,
     posture: Posture,
     camera_from_base: Transform<Camera, Base>,
-    /// Axis of the first joint, base frame.
-    pub axis: Vector3<f64>,
     /// Depth of what stays, metres; 0 where nothing is known.
     seen_m: Vec<f32>,
     deviation_m: f64,
@@ -106,7 +104,6 @@ impl<'a> Still<'a> {
             .map(|configuration| configuration.posture.moved(arm, &at.joint_offsets))
             .collect();
         let first = postures.first()?;
-        let axis = first.axes().first()?.along_in_base.into_inner();
         let stays = |link: &usize| {
             let carried = arm.joints().iter().any(|joint| joint.carries[*link]);
             let same = |posture: &Posture| {
@@ -143,7 +140,6 @@ impl<'a> Still<'a> {
             links,
             posture,
             camera_from_base: at.camera_from_base,
-            axis,
             seen_m: (0..observations.camera.pixel_count())
                 .into_par_iter()
                 .map(|pixel| factor * lasting(&views, pixel))
