@@ -18,6 +18,10 @@ pub struct Arguments {
     /// How many sessions
     #[arg(long, value_name = "COUNT", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     sessions: u32,
+    /// Number of the first session: what a session is follows from seed and number, so that one can be run by itself, and many on
+    /// several machines
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = clap::value_parser!(u32))]
+    first: u32,
     /// Seed of all random choices; but for times, the same seed gives the same lines on any number of
     /// threads
     #[arg(long, default_value_t = 1)]
@@ -44,6 +48,7 @@ fn kind() -> impl TypedValueParser<Value = Kind> {
 pub fn run(arguments: &Arguments) -> Result<Ending> {
     use_threads(arguments.threads)?;
     let study = Study {
+        first: u64::from(arguments.first),
         sessions: u64::from(arguments.sessions),
         seed: arguments.seed,
         only: arguments.only,

@@ -3,6 +3,7 @@
 mod change_point;
 mod clusters;
 mod covariance;
+mod doubts;
 mod gather;
 mod gauss_newton;
 mod left_out;
@@ -18,9 +19,9 @@ mod system;
 mod view_evidence;
 
 pub use change_point::{ChangePoint, change_point};
+pub use doubts::Doubt;
 pub use gauss_newton::refine;
 pub use left_out::LeftOut;
-pub use offset_prior::Doubt;
 pub use outcome::{Fit, Refinement, StopReason, ViewFit};
 pub use predicted::{ExpectedNoise, PREDICTED, PredictedInformation, predicted_information};
 pub use residuals::{Residual, residuals};

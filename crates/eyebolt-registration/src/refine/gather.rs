@@ -17,6 +17,8 @@ pub(super) struct ViewFactors {
     pub samples: [f64; EVIDENCE_KINDS],
     /// Points of the arm.
     pub points: usize,
+    /// Whether its outline is that of a mask.
+    pub masked: bool,
 }
 
 /// Gathers the factors of all views at `state`.
@@ -49,6 +51,7 @@ pub(super) fn gather_one(
         raster: None,
     };
     gathered.points = view.arm_points.len();
+    gathered.masked = view.view.mask.is_some();
     let kinds = gathered.factors.iter_mut().zip(&mut gathered.samples).zip(KINDS);
     let (drawn, without): (Vec<_>, Vec<_>) = kinds.partition(|(_, kind)| kind.needs_drawing());
     let gather = |kinds: Vec<Buffers<'_>>, posed: &PosedView<'_>| {

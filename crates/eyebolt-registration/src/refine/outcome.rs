@@ -1,7 +1,7 @@
 //! What a refinement comes to.
 
+use super::doubts::Doubt;
 use super::left_out::LeftOut;
-use super::offset_prior::Doubt;
 use super::start::{OffsetDeviations, Start};
 use crate::arm::{JointOffsets, MOST_JOINTS};
 use crate::intrinsics_offset::IntrinsicsOffset;

@@ -1,9 +1,10 @@
 //! What a refinement comes to: fits, information, covariance.
 
 use super::covariance::sandwich;
+use super::doubts::doubts;
 use super::gather::ViewFactors;
 use super::left_out::without_each;
-use super::offset_prior::{UnderOpenPrior, doubts, under_open_prior};
+use super::offset_prior::{UnderOpenPrior, under_open_prior};
 use super::outcome::{Fit, Refinement, StopReason, ViewFit};
 use super::priors::with_priors;
 use super::start::OffsetDeviations;
@@ -67,7 +68,7 @@ pub(super) fn summarise(
 
 /// What the prior took off an offset is as likely an error of it as the deviation of what is seen.
 fn joint_sigma(open: Option<&UnderOpenPrior>, state: &State) -> [f64; MOST_JOINTS] {
-    let Some(UnderOpenPrior { offsets, covariance }) = open else {
+    let Some(UnderOpenPrior { offsets, covariance, .. }) = open else {
         return [f64::INFINITY; MOST_JOINTS];
     };
     std::array::from_fn(|joint| {

@@ -45,6 +45,8 @@ pub(super) struct System<'a> {
     clusters: &'a [Vec<Cluster>],
     /// By view, link and kind; those of one cluster add up to the weight of one view.
     sums: Vec<Vec<[Sum; EVIDENCE_KINDS]>>,
+    /// Whether outlines are those of masks.
+    pub masked: bool,
 }
 
 impl<'a> System<'a> {
@@ -70,7 +72,8 @@ impl<'a> System<'a> {
             }
             sums
         });
-        Self { clusters, sums: sums.collect() }
+        let masked = gathered.iter().any(|view| view.masked);
+        Self { clusters, sums: sums.collect(), masked }
     }
 
     /// The sum of all views, in their order.
@@ -78,6 +81,15 @@ impl<'a> System<'a> {
         let mut total = Sum::default();
         for sum in self.sums.iter().flatten().flatten() {
             total.add_all(sum);
+        }
+        total
+    }
+
+    /// The sum of one kind of evidence.
+    pub fn total_of_kind(&self, kind: usize) -> Sum {
+        let mut total = Sum::default();
+        for sums in self.sums.iter().flatten() {
+            total.add_all(&sums[kind]);
         }
         total
     }

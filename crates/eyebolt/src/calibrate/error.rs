@@ -105,7 +105,7 @@ pub(crate) fn estimate(
         sources.push((ErrorSource::LeftOut, jackknife(&deltas(&pose, &without.parts))));
     }
     let ratio = one_kind.as_ref().map(|alone| birge(refinement, alone));
-    let doubts = by_doubts(&refinement.doubts, ratio.unwrap_or(1.0));
+    let doubts = by_doubts(&refinement.doubts);
     let base = still.map(|still| by_base(still, &pose, ratio.unwrap_or(1.0)));
     let base = base.unwrap_or_else(Matrix6::zeros);
     sources.push((ErrorSource::Description, doubts + base));
@@ -216,12 +216,12 @@ fn by_disagreement(refinement: &Refinement, birge: f64) -> Matrix6<f64> {
 const OFF: f64 = 0.05;
 
 /// Covariance from what may be off and was taken at its word: each shift as likely as the evidence for it
-/// makes it (Bayesian model averaging; Hoeting et al., Statistical Science 1999). Evidence is worth the
-/// less, the more the kinds of it disagree.
-fn by_doubts(doubts: &[Doubt], birge: f64) -> Matrix6<f64> {
+/// makes it (Bayesian model averaging; Hoeting et al., Statistical Science 1999). That kinds of evidence disagree makes
+/// it no less: a focal length that is off is why they do.
+fn by_doubts(doubts: &[Doubt]) -> Matrix6<f64> {
     let each = doubts.iter().map(|doubt| {
-        let odds = OFF / (1.0 - OFF) * (doubt.log_evidence / birge.max(1.0)).exp();
-        doubt.shift * doubt.shift.transpose() * (odds / (1.0 + odds)).min(1.0)
+        let odds = OFF / (1.0 - OFF) * doubt.log_evidence.exp();
+        doubt.mean_square * (odds / (1.0 + odds)).min(1.0)
     });
     each.sum()
 }

@@ -13,6 +13,8 @@ use std::sync::mpsc;
 /// Which sessions to run.
 #[derive(Clone, Debug)]
 pub struct Study {
+    /// Number of the first: what a session is follows from its number.
+    pub first: u64,
     /// How many.
     pub sessions: u64,
     /// Of all random choices.
@@ -50,7 +52,8 @@ pub fn run(
     progress: &dyn Progress,
     mut tell: impl FnMut(&SessionResult),
 ) -> Result<Summary, StudyError> {
-    let next = AtomicU64::new(0);
+    let next = AtomicU64::new(study.first);
+    let end = study.first.saturating_add(study.sessions);
     let mut summary = Summary::default();
     let total = study.sessions as usize;
     std::thread::scope(|scope| {
@@ -61,7 +64,7 @@ pub fn run(
             let (sender, next) = (sender.clone(), &next);
             scope.spawn(move || {
                 // Nobody listens any more once the study is ended.
-                while let Some(number) = take(next, study.sessions)
+                while let Some(number) = take(next, end)
                     && sender.send(pool.install(|| session(study, number, cache, clock))).is_ok()
                 {
                 }
@@ -71,12 +74,12 @@ pub fn run(
         let mut early = BTreeMap::new();
         for (done, result) in results.iter().enumerate() {
             early.insert(result.session.number, result);
-            while let Some(result) = early.remove(&summary.told()) {
+            while let Some(result) = early.remove(&(study.first + summary.told())) {
                 tell(&result);
                 summary.add(&result);
             }
             if let Err(cancelled) = progress.advance(done + 1, total) {
-                next.store(study.sessions, Ordering::Relaxed);
+                next.store(end, Ordering::Relaxed);
                 return Err(cancelled.into());
             }
         }
@@ -85,9 +88,9 @@ pub fn run(
 }
 
 /// The number of a session that nobody has taken.
-fn take(next: &AtomicU64, sessions: u64) -> Option<u64> {
+fn take(next: &AtomicU64, end: u64) -> Option<u64> {
     let number = next.fetch_add(1, Ordering::Relaxed);
-    (number < sessions).then_some(number)
+    (number < end).then_some(number)
 }
 
 fn session(

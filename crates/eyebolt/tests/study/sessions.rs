@@ -124,13 +124,15 @@ fn told(study: &Study) -> Vec<String> {
 
 #[test]
 fn sessions_are_those_of_the_seed_in_order_on_any_number_of_threads() {
-    let study = Study { sessions: 3, seed: 2, only: Some(Kind::WrongUnit), threads: 1 };
+    let study = Study { first: 0, sessions: 3, seed: 2, only: Some(Kind::WrongUnit), threads: 1 };
     let expected = told(&study);
     assert_eq!(expected.len(), 4);
     for (number, line) in expected[..3].iter().enumerate() {
         assert!(line.contains(&format!("number: {number},")), "{line}");
     }
     assert!(told(&Study { threads: 3, ..study.clone() }) == expected);
+    let last = Study { first: 2, sessions: 1, ..study.clone() };
+    assert!(told(&last)[0] == expected[2], "one by itself is the same");
     assert!(told(&Study { seed: 3, ..study }) != expected);
 }
 
@@ -145,7 +147,7 @@ fn whoever_wants_an_end_gets_one() {
             Err(eyebolt::progress::Cancelled)
         }
     }
-    let study = Study { sessions: 500, seed: 2, only: Some(Kind::WrongUnit), threads: 1 };
+    let study = Study { first: 0, sessions: 500, seed: 2, only: Some(Kind::WrongUnit), threads: 1 };
     let mut count = 0;
     assert!(run(&study, &CACHE, &|| 0.0, &Impatient, |_| count += 1).is_err());
     assert!(count <= 1, "nothing more is done");

@@ -1,4 +1,4 @@
-//! Laws of what the disagreement of kinds of evidence adds, after Birge.
+//! Laws of what the disagreement of kinds of evidence adds, after Birge, and of what remains in doubt.
 
 use super::*;
 use crate::made_up;
@@ -117,4 +117,18 @@ fn a_pose_that_no_kind_determines_is_infinitely_uncertain() {
     let nothing = Refinement { information: Matrix6::zeros(), ..made_up::refinement(pose()) };
     let alone = [kind(Matrix6::zeros(), APART), kind(Matrix6::zeros(), -APART)];
     assert!(disagreement(&nothing, &alone).iter().all(|value| value.is_infinite()));
+}
+
+/// What a shift of 3 cm adds for which so much speaks, metres.
+fn doubt(log_evidence: f64) -> f64 {
+    let shift = Vector6::new(0.0, 0.03, 0.0, 0.0, 0.0, 0.0);
+    by_doubts(&[Doubt { log_evidence, mean_square: shift * shift.transpose() }]).m22.sqrt()
+}
+
+#[test]
+fn a_doubt_counts_as_much_as_speaks_for_it() {
+    let all = [f64::NEG_INFINITY, -2.0, 0.0, 3.0, 9.0, 1e3].map(doubt);
+    assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{all:?}");
+    assert!(all[0] == 0.0 && all[5] == 0.03);
+    assert!((all[2] - 0.03 * OFF.sqrt()).abs() < 1e-9);
 }
