@@ -65,3 +65,11 @@ eyebolt --version
 MYPYPATH="$root/python" "$python" -m mypy --strict --cache-dir "$cache/mypy" "$root/python/tests"
 "$python" -m mypy.stubtest --mypy-config-file "$root/pyproject.toml" eyebolt._native
 "$python" -m pytest -p no:cacheprovider --rootdir "$root" "$root/python/tests"
+
+# Rerun wants a newer NumPy than the oldest that eyebolt works with, which the other tests have.
+if ! venv "$cache/rerun" pytest==8.4.2 rerun-sdk==0.41.0 mcap==1.6.0 mcap-ros2-support==0.6.0; then
+    echo "SKIPPED: no Rerun to test \`Calibration.rerun\` with"
+    exit 0
+fi
+"$cache/rerun/bin/python" -m pip install -q --disable-pip-version-check --force-reinstall --no-deps "$wheels"/eyebolt-*.whl
+"$cache/rerun/bin/python" -m pytest -p no:cacheprovider --rootdir "$root" "$root/python/tests/test_rerun.py"

@@ -202,16 +202,32 @@ class Calibration:
             Error: No pose was found; the calibration was loaded, and what it was made of is not known; a file exists, or cannot be
                 written.
         """
-        made = self._made_of("viewer").viewer(call(progress))
-        if made is None:
-            remedy = "See `reasons` for why"
-            raise Error(f"{self._name}: viewer: there is no pose to show. {remedy}", self._name, "viewer", remedy)
+        made = self._shown("viewer", progress)
         layout = Path(path).with_suffix(".layout.json")
         if not force and layout.exists():
             raise Error(f"{layout}: the file exists. Give `force` to replace it", str(layout), "path", "Give `force` to replace it")
         _native.write(os.fspath(path), made[0], force)
         _native.write(os.fspath(layout), made[1].encode(), force)
         return layout
+
+    def rerun(self, path: PathLike, *, force: bool = False, progress: Progress = None) -> None:
+        """Writes what `viewer` has to `path` for Rerun, a `.rrd` file: ``rerun PATH`` shows it. Needs ``pip install 'eyebolt[rerun]'``.
+
+        Raises:
+            Error: Rerun is not installed; no pose was found; the calibration was loaded, and what it was made of is not known; the
+                file exists, or cannot be written.
+        """
+        from . import _rerun
+
+        _rerun.write(self._shown("rerun", progress)[0], path, self._name, force=force)
+
+    def _shown(self, name: str, progress: Progress) -> tuple[bytes, str]:
+        """What viewers show, as MCAP, and a layout, for the function of this name."""
+        made = self._made_of(name).viewer(call(progress))
+        if made is None:
+            remedy = "See `reasons` for why"
+            raise Error(f"{self._name}: {name}: there is no pose to show. {remedy}", self._name, name, remedy)
+        return made
 
     def overlays(self, *, progress: Progress = None) -> dict[str, NDArray[np.uint8]]:
         """The posed arm over what the camera saw: for each configuration, by the name of its first frame, `(rows, columns, 3)`

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Iterable
+from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple, Union
+from typing import Any, Union
 
 import numpy as np
 
@@ -28,18 +30,12 @@ _TRANSFORMS = ("/tf", "/tf_static")
 _RGB = "rgb"
 
 
-class _Message(NamedTuple):
-    topic: str
-    stamp_ns: int
-    content: Any
-
-
 def write(viewer: bytes, path: Union[str, os.PathLike[str]], name: str, *, force: bool) -> None:
     """Writes what `viewer` shows, the bytes of a viewer's MCAP, to `path`, a `.rrd` file."""
     try:
-        import mcap_ros2.decoder  # noqa: F401
-        import rerun as rr
-        import rerun.blueprint as rrb
+        # By name: whoever checks types need not have them.
+        rr, rrb = import_module("rerun"), import_module("rerun.blueprint")
+        mcap, ros2 = import_module("mcap.reader"), import_module("mcap_ros2.decoder")
     except ModuleNotFoundError as error:
         remedy = "Install `eyebolt[rerun]`"
         raise Error(f"{name}: rerun: there is no module {error.name!r}. {remedy}", name, "rerun", remedy) from error
@@ -57,7 +53,8 @@ def write(viewer: bytes, path: Union[str, os.PathLike[str]], name: str, *, force
             column_shares=[3, 2],
         )
         stream.save(part, default_blueprint=rrb.Blueprint(view, rrb.TimePanel(state="collapsed")))
-        _Scene(stream).log(_messages(viewer))
+        reader = mcap.make_reader(io.BytesIO(viewer), decoder_factories=[ros2.DecoderFactory()])
+        _Scene(rr, stream).log(reader.iter_decoded_messages())
         stream.flush()
         stream.disconnect()
         os.replace(part, target)
@@ -68,36 +65,26 @@ def write(viewer: bytes, path: Union[str, os.PathLike[str]], name: str, *, force
         part.unlink(missing_ok=True)
 
 
-def _messages(viewer: bytes) -> Iterator[_Message]:
-    from mcap.reader import make_reader
-    from mcap_ros2.decoder import DecoderFactory
-
-    reader = make_reader(io.BytesIO(viewer), decoder_factories=[DecoderFactory()])
-    for _, channel, message, content in reader.iter_decoded_messages():
-        yield _Message(channel.topic, message.log_time, content)
-
-
 class _Scene:
     """Entities are as the frames are: links and camera below the base, which is the root."""
 
-    def __init__(self, stream: Any) -> None:
+    def __init__(self, rr: Any, stream: Any) -> None:
+        self.rr = rr
         self.stream = stream
         self.base = ""
 
-    def log(self, messages: Iterator[_Message]) -> None:
-        import rerun as rr
+    def log(self, messages: Iterable[tuple[Any, Any, Any, Any]]) -> None:
+        """Schema, channel, message and what is in it, of each, in the order of their times."""
+        self.stream.log("robot", self.rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        told = [(channel.topic, message.log_time, content) for _, channel, message, content in messages]
+        # Each configuration has one caption.
+        begun = [stamp_ns for topic, stamp_ns, _ in told if topic == _CAPTION]
+        for topic, stamp_ns, content in told:
+            self.stream.set_time("time", timestamp=np.datetime64(stamp_ns, "ns"))
+            self.stream.set_time("configuration", sequence=max(bisect_right(begun, stamp_ns) - 1, 0))
+            self._log_one(topic, content)
 
-        self.stream.log("robot", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        configuration = -1
-        for message in messages:
-            if message.topic == _CAMERA:
-                configuration += 1
-            self.stream.set_time("time", timestamp=1e-9 * message.stamp_ns)
-            self.stream.set_time("configuration", sequence=max(configuration, 0))
-            self._log_one(message)
-
-    def _log_one(self, message: _Message) -> None:
-        topic, content = message.topic, message.content
+    def _log_one(self, topic: str, content: Any) -> None:
         if topic in _TRANSFORMS:
             self._transforms(content, static=topic == "/tf_static")
         elif topic == _ROBOT:
@@ -117,27 +104,23 @@ class _Scene:
         return "robot" if frame == self.base else f"robot/{frame}"
 
     def _transforms(self, content: Any, *, static: bool) -> None:
-        import rerun as rr
-
         for stamped in content.transforms:
             # All of them are of the base.
             self.base = stamped.header.frame_id
             moved, turned = stamped.transform.translation, stamped.transform.rotation
-            pose = rr.Transform3D(
+            pose = self.rr.Transform3D(
                 translation=[moved.x, moved.y, moved.z],
-                quaternion=rr.Quaternion(xyzw=[turned.x, turned.y, turned.z, turned.w]),
+                quaternion=self.rr.Quaternion(xyzw=[turned.x, turned.y, turned.z, turned.w]),
             )
             self.stream.log(self._entity(stamped.child_frame_id), pose, static=static)
 
     def _robot(self, content: Any) -> None:
-        import rerun as rr
-
         for marker in content.markers:
             corners = _corners(marker.points)
             sides = corners.reshape(-1, 3, 3)
             normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
             normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-            mesh = rr.Mesh3D(
+            mesh = self.rr.Mesh3D(
                 vertex_positions=corners,
                 vertex_normals=np.repeat(normals, 3, axis=0),
                 albedo_factor=_color(marker.color),
@@ -145,47 +128,37 @@ class _Scene:
             self.stream.log(f"{self._entity(marker.header.frame_id)}/shape", mesh, static=True)
 
     def _points(self, content: Any) -> None:
-        import rerun as rr
-
         offsets = {field.name: field.offset for field in content.fields}
         rows = np.frombuffer(bytes(content.data), dtype=np.uint8).reshape(-1, content.point_step)
         places = [rows[:, offsets[axis] : offsets[axis] + 4].copy().view("<f4") for axis in "xyz"]
         colors = rows[:, offsets[_RGB] : offsets[_RGB] + 3][:, ::-1]
-        points = rr.Points3D(np.hstack(places), colors=colors, radii=0.0015)
+        points = self.rr.Points3D(np.hstack(places), colors=colors, radii=0.0015)
         self.stream.log(f"{self._entity(content.header.frame_id)}/points", points)
 
     def _outline(self, content: Any) -> None:
-        import rerun as rr
-
         for marker in content.markers:
             pieces = _corners(marker.points).reshape(-1, 2, 3)
-            lines = rr.LineStrips3D(pieces, colors=_color(marker.color), radii=0.5 * marker.scale.x)
+            lines = self.rr.LineStrips3D(pieces, colors=_color(marker.color), radii=0.5 * marker.scale.x)
             self.stream.log(f"{self._entity(marker.header.frame_id)}/outline", lines)
 
     def _camera(self, content: Any) -> None:
-        import rerun as rr
-
-        camera = rr.Pinhole(
+        camera = self.rr.Pinhole(
             image_from_camera=np.array(content.k).reshape(3, 3),
             resolution=[content.width, content.height],
-            camera_xyz=rr.ViewCoordinates.RDF,
+            camera_xyz=self.rr.ViewCoordinates.RDF,
             image_plane_distance=0.25,
         )
         # Beside the points, which are no part of its image.
         self.stream.log(f"{self._entity(content.header.frame_id)}/image", camera)
 
     def _caption(self, content: Any) -> None:
-        import rerun as rr
-
         for marker in content.markers:
             at = marker.pose.position
-            said = rr.Points3D([[at.x, at.y, at.z]], labels=[marker.text], radii=0.0, show_labels=True)
+            said = self.rr.Points3D([[at.x, at.y, at.z]], labels=[marker.text], radii=0.0, show_labels=True)
             self.stream.log(f"{self._entity(marker.header.frame_id)}/caption", said)
 
     def _overlay(self, content: Any) -> None:
-        import rerun as rr
-
-        picture = rr.EncodedImage(contents=bytes(content.data), media_type=f"image/{content.format}")
+        picture = self.rr.EncodedImage(contents=bytes(content.data), media_type=f"image/{content.format}")
         self.stream.log("overlay", picture)
 
 

@@ -113,7 +113,7 @@ mod tests {
     use super::*;
     use crate::unknowns::{OFFSETS, Unknowns};
     use eyebolt_geometry::{Base, Camera, Transform};
-    use nalgebra::{SMatrix, Vector3};
+    use nalgebra::Vector3;
 
     /// What is seen of one offset: `value`, up to `sigma`.
     fn seen(offset: usize, value: f64, sigma: f64) -> UnderOpenPrior {
@@ -167,8 +167,8 @@ mod tests {
         let wide = OffsetDeviations::from_fn(|_| 0.01);
         let information = with_priors(sum(), &state, &wide).information;
         const REST: usize = UNKNOWNS - 2;
-        let rest: SMatrix<f64, REST, REST> = information.fixed_view(0, 0).into_owned();
-        let across: SMatrix<f64, REST, 2> = information.fixed_view(0, REST).into_owned();
+        let rest = information.fixed_view::<REST, REST>(0, 0).into_owned();
+        let across = information.fixed_view::<REST, 2>(0, REST).into_owned();
         let expected = -rest.cholesky().unwrap().solve(&across);
         assert!((found - expected.rows(0, POSE)).amax() < 1e-9);
     }

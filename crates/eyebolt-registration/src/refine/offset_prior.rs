@@ -150,14 +150,19 @@ pub(super) fn under_open_prior(system: &System<'_>, state: &State) -> Option<Und
     let steps = step.fixed_rows::<OFFSETS>(FIRST_JOINT).into_owned();
     let block = covariance.fixed_view::<OFFSETS, OFFSETS>(FIRST_JOINT, FIRST_JOINT);
     let offsets = Offsets::from(state.offsets()) + steps;
-    let covariance = block * (OVERCONFIDENCE * disagreement(system, &step).max(1.0));
+    let mut covariance = block * OVERCONFIDENCE;
+    let more = disagreement(system, &step).max(1.0).sqrt();
+    for described in MOST_JOINTS..OFFSETS {
+        covariance.row_mut(described).scale_mut(more);
+        covariance.column_mut(described).scale_mut(more);
+    }
     Some(UnderOpenPrior { offsets, covariance, masked: system.masked })
 }
 
 /// How much the poses of single kinds of evidence still disagree once offsets explain what they can of it, after `step`: the Birge
 /// ratio (Physical Review 1932) of the noise model; 1 where one kind alone determines no pose. What offsets do not explain is
-/// an error that the kinds have of their own, such as light that comes late by way of the floor, and what it does to
-/// offsets no cluster of residuals shows.
+/// an error that the kinds have of their own, such as light that comes late by way of the floor; and what it does to lengths and
+/// intrinsics no cluster of residuals shows. Zeros of joints it hardly looks like: doubting these makes bumps of them.
 fn disagreement(system: &System<'_>, step: &Unknowns) -> f64 {
     let pose_of = |kind: usize| {
         let sum = system.total_of_kind(kind);
