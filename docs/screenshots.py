@@ -7,6 +7,7 @@
 Needs Chromium (CHROMIUM names it). Pictures are of few colours, so that they stay small.
 """
 
+import atexit
 import base64
 import contextlib
 import io
@@ -61,6 +62,7 @@ class Page:
         debugging = [f"--remote-debugging-port={port}", "--remote-allow-origins=*"]
         command = [browser, *options, *SOFTWARE, *debugging, url]
         self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        atexit.register(self.close)
         pages = json.loads(answered(f"http://127.0.0.1:{port}/json"))
         address = next(page["webSocketDebuggerUrl"] for page in pages if page["type"] == "page")
         self.socket = websocket.create_connection(address, timeout=120)
@@ -88,8 +90,10 @@ class Page:
             now = self.picture()
             passed = time.monotonic() - begun
             still = before is not None and now.tobytes() == before.tobytes()
-            if passed > most_s or (still and passed > least_s and len(set(now.resize((64, 64)).getdata())) > 8):
+            if still and passed > least_s and len(set(now.resize((64, 64)).getdata())) > 8:
                 return now
+            if passed > most_s:
+                sys.exit(f"the page still changes, or is empty, after {most_s} s")
             before = now
 
     def close(self):
@@ -124,7 +128,8 @@ def rerun(path, output, folder):
 
 def main():
     output = Path(sys.argv[1] if len(sys.argv) > 1 else HERE)
-    with tempfile.TemporaryDirectory() as folder:
+    # Chromium may still write when it is killed.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         folder = Path(folder)
         recording = folder / "session.mcap"
         eyebolt.simulate(recording, seed=7)

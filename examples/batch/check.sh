@@ -20,30 +20,34 @@ simulate() {
 export -f simulate
 export eyebolt
 seq 1 "$count" | xargs -P "$(nproc)" -I{} bash -c 'simulate {}'
-find "$folder/recordings" -name '*.mcap' | sort -V >list.txt
-rm -rf serially sharded ray killed
+seq -f "$folder/recordings/%g.mcap" 1 "$count" >list.txt
+rm -rf calibrated
+mkdir calibrated
+cd calibrated
 
 echo "one process"
-"$eyebolt" batch --list list.txt -o serially >/dev/null
+"$eyebolt" batch --list ../list.txt -o serially >/dev/null
 echo "five shards side by side"
-seq 0 4 | xargs -P 5 -I{} "$eyebolt" batch --list list.txt -o sharded --shard {}/5 --threads 1 >/dev/null
+seq 0 4 | xargs -P 5 -I{} "$eyebolt" batch --list ../list.txt -o sharded --shard {}/5 --threads 1 >/dev/null
 if "$python" -c 'import ray' 2>/dev/null; then
     echo "Ray"
-    PATH="$(dirname "$eyebolt"):$PATH" "$python" "$here/ray_batch.py" list.txt ray --shards 5 >/dev/null
+    PATH="$(dirname "$eyebolt"):$PATH" "$python" "$here/ray_batch.py" ../list.txt ray --shards 5 >/dev/null
 else
     echo "SKIPPED: no Ray to calibrate with"
-    cp -r serially ray
 fi
 for done in $((count / 5)) $((count / 2)) $((count * 4 / 5)); do
-    "$eyebolt" batch --list list.txt -o killed >/dev/null &
-    until (($(find killed/lines -name '*.json' 2>/dev/null | wc -l) >= done)); do sleep 0.05; done
-    kill -KILL $!
-    wait $! 2>/dev/null || true
+    "$eyebolt" batch --list ../list.txt -o killed >/dev/null &
+    run=$!
+    until (($(find killed/lines -name '*.json' 2>/dev/null | wc -l) >= done)) || ! kill -0 "$run"; do sleep 0.05; done
+    kill -KILL "$run" || { echo "it had ended before it was killed: more recordings take longer" && exit 1; }
+    wait "$run" 2>/dev/null || true
     echo "killed with $(find killed/lines -name '*.json' | wc -l) of $count done"
 done
-"$eyebolt" batch --list list.txt -o killed >/dev/null
-for other in sharded ray killed; do
+"$eyebolt" batch --list ../list.txt -o killed >/dev/null
+others=(sharded killed)
+[[ ! -d ray ]] || others+=(ray)
+for other in "${others[@]}"; do
     # What a killed run was writing.
     diff -r --exclude '.tmp*' serially "$other"
 done
-echo "all $count the same: $(find serially -type f | wc -l) files"
+echo "all $count the same (${others[*]}): $(find serially -type f | wc -l) files"

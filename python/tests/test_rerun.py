@@ -35,10 +35,10 @@ def test_robot_points_and_pictures_of_each_configuration(calibration: eyebolt.Ca
 
 
 @pytest.mark.skipif(not INSTALLED, reason="SKIPPED: Rerun is not installed")
-def test_a_folder_that_is_not_there_is_named(calibration: eyebolt.Calibration, tmp_path: Path) -> None:
-    with pytest.raises(eyebolt.Error) as told:
-        calibration.rerun(tmp_path / "nowhere" / "calibration.rrd")
-    assert told.value.field == "path" and "nowhere" in str(told.value.file) and told.value.remedy
+def test_a_place_that_cannot_be_written_is_named(calibration: eyebolt.Calibration, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(eyebolt.Error, match="file"):
+        calibration.rerun(tmp_path / "file" / "calibration.rrd")
 
 
 @pytest.mark.skipif(INSTALLED, reason="Rerun is installed")

@@ -42,8 +42,8 @@ pub use normal_equations::NormalEquations;
 pub use refine::{
     ChangePoint, Doubt, ExpectedNoise, Fit, LeftOut, OffsetDeviations, OffsetPrior, PREDICTED,
     PredictedInformation, RefineOptions, RefineView, Refinement, Residual, SHIFTS, ShiftDeviations,
-    Start, StopReason, Trust, ViewEvidence, ViewFit, change_point, predicted_information, refine,
-    residuals, settle, view_evidence,
+    Start, StopReason, Trust, ViewEvidence, ViewFit, birge_ratio, change_point,
+    predicted_information, refine, residuals, settle, view_evidence,
 };
 pub use robust::median;
 pub use rotations::spread_rotations;

@@ -1,5 +1,6 @@
 //! Robust refinement of one pose over all configurations at once.
 
+mod birge;
 mod change_point;
 mod clusters;
 mod covariance;
@@ -18,6 +19,7 @@ mod summary;
 mod system;
 mod view_evidence;
 
+pub use birge::birge_ratio;
 pub use change_point::{ChangePoint, change_point};
 pub use doubts::Doubt;
 pub use gauss_newton::refine;

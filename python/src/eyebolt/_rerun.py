@@ -5,16 +5,17 @@ Rerun reads the MCAP itself, but shows neither markers, which the robot and the 
 
 from __future__ import annotations
 
+import hashlib
 import io
 import os
 from bisect import bisect_right
 from collections.abc import Iterable
 from importlib import import_module
-from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
 
+from . import _native
 from ._errors import Error
 
 # What the messages of the viewer's file are, by their topics.
@@ -39,34 +40,23 @@ def write(viewer: bytes, path: Union[str, os.PathLike[str]], name: str, *, force
     except ModuleNotFoundError as error:
         remedy = "Install `eyebolt[rerun]`"
         raise Error(f"{name}: rerun: there is no module {error.name!r}. {remedy}", name, "rerun", remedy) from error
-    target = Path(path)
-    if not force and target.exists():
-        remedy = "Give `force` to replace it"
-        raise Error(f"{target}: the file exists. {remedy}", str(target), "path", remedy)
-    # A file is there whole or not at all.
-    part = target.with_name(f".{target.name}.part")
-    try:
-        stream = rr.RecordingStream("eyebolt")
-        view = rrb.Horizontal(
-            rrb.Spatial3DView(origin="robot", name="in the base frame"),
-            rrb.Spatial2DView(origin="overlay", name="what the camera saw"),
-            column_shares=[3, 2],
-        )
-        stream.save(part, default_blueprint=rrb.Blueprint(view, rrb.TimePanel(state="collapsed")))
-        reader = mcap.make_reader(io.BytesIO(viewer), decoder_factories=[ros2.DecoderFactory()])
-        _Scene(rr, stream).log(reader.iter_decoded_messages())
-        stream.flush()
-        stream.disconnect()
-        os.replace(part, target)
-    except OSError as error:
-        remedy = "Name a file in a folder that can be written"
-        raise Error(f"{target}: {error.strerror}. {remedy}", str(target), "path", remedy) from error
-    finally:
-        part.unlink(missing_ok=True)
+    # Without an identity of its own, older Rerun takes all of one process for one recording.
+    stream = rr.RecordingStream("eyebolt", recording_id=hashlib.sha256(viewer).hexdigest()[:32])
+    written = stream.binary_stream()
+    view = rrb.Horizontal(
+        rrb.Spatial3DView(origin="robot", name="in the base frame"),
+        rrb.Spatial2DView(origin="overlay", name="what the camera saw"),
+        column_shares=[3, 2],
+    )
+    stream.send_blueprint(rrb.Blueprint(view, rrb.TimePanel(state="collapsed")))
+    reader = mcap.make_reader(io.BytesIO(viewer), decoder_factories=[ros2.DecoderFactory()])
+    _Scene(rr, stream).log(reader.iter_decoded_messages())
+    _native.write(os.fspath(path), written.read(), force)
 
 
 class _Scene:
-    """Entities are as the frames are: links and camera below the base, which is the root."""
+    """Entities are as the frames are: links and camera below the base, which is the root. What is seen in a frame is below that, by
+    names that no link has."""
 
     def __init__(self, rr: Any, stream: Any) -> None:
         self.rr = rr
@@ -99,9 +89,11 @@ class _Scene:
             self._caption(content)
         elif topic == _OVERLAY:
             self._overlay(content)
+        else:
+            raise AssertionError(f"nothing is shown of {topic}")
 
     def _entity(self, frame: str) -> str:
-        return "robot" if frame == self.base else f"robot/{frame}"
+        return "robot" if frame == self.base else f"robot/{self.rr.escape_entity_path_part(frame)}"
 
     def _transforms(self, content: Any, *, static: bool) -> None:
         for stamped in content.transforms:

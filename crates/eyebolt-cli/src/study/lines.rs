@@ -95,6 +95,7 @@ pub fn summary(study: &Study, summary: &Summary) -> Result<String> {
     let line = json!({
         "summary": true,
         "seed": study.seed,
+        "first": study.first,
         "good": tally(&summary.all(false))?,
         "spoiled": tally(&summary.all(true))?,
         "kinds": kinds.collect::<Result<Map<String, Value>>>()?,

@@ -43,6 +43,8 @@ fn one_line_for_each_session_and_one_for_all() {
     let sessions = |of: &str| summary[of]["sessions"].as_u64().unwrap();
     assert_eq!(sessions("good") + sessions("spoiled"), 2);
     assert_eq!(lines(&study(&[&two[..], &["--threads", "2"]].concat())), told);
+    let last = lines(&study(&["--first", "1", "--sessions", "1", "--seed", "4", "--json"]));
+    assert_eq!((&last[0], &last[1]["first"]), (&told[1], &1.into()));
 }
 
 #[test]

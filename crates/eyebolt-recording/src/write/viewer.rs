@@ -1,4 +1,5 @@
-//! A calibration for viewers of MCAP: the one place that knows the topics of such files.
+//! A calibration for viewers of MCAP: the one place that knows the topics of such files, but for `python/src/eyebolt/_rerun.py`,
+//! which shows them to Rerun.
 
 mod layout;
 mod topics;

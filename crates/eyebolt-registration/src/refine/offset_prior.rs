@@ -1,12 +1,13 @@
 //! How far off the joints of this arm and the intrinsics of this camera are likely to be, from what all
 //! of them together show: ARCHITECTURE.md, (7).
 
+use super::birge::birge_ratio;
 use super::covariance::sandwich;
 use super::priors::with_priors;
 use super::start::OffsetDeviations;
 use super::system::System;
 use crate::arm::MOST_JOINTS;
-use crate::unknowns::{FIRST_JOINT, OFFSETS, OUTLINES, POSE, SURFACES, State, Unknowns};
+use crate::unknowns::{EVIDENCE_KINDS, FIRST_JOINT, OFFSETS, POSE, State, Unknowns};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
 
@@ -42,6 +43,8 @@ const DESCRIBED_STANDS_OUT: f64 = 25.0;
 /// Likewise the focal lengths, or the principal point, without masks: twice what they have in the worst of a hundred good
 /// sessions of the study.
 const INTRINSIC_STANDS_OUT: f64 = 7.0;
+/// Of a pose, as a part of what is known best of it, in metres and radians.
+const LEAST_KNOWN: f64 = 1e-9;
 /// What a deviation of all joints has to add.
 const ALL_STAND_OUT: f64 = 6.0;
 
@@ -79,7 +82,7 @@ pub(super) const FOCAL: usize = 2 * MOST_JOINTS;
 /// Offsets that are off together or not at all: joints, lengths and focal lengths each, and both numbers of the principal
 /// point.
 pub(super) fn matters() -> impl Iterator<Item = Range<usize>> {
-    (0..=FOCAL).map(|offset| offset..offset + 1).chain([FOCAL + 1..OFFSETS])
+    (0..=FOCAL).map(|offset| offset..offset + 1).chain(std::iter::once(FOCAL + 1..OFFSETS))
 }
 
 /// What an offset is of.
@@ -160,24 +163,20 @@ pub(super) fn under_open_prior(system: &System<'_>, state: &State) -> Option<Und
 }
 
 /// How much the poses of single kinds of evidence still disagree once offsets explain what they can of it, after `step`: the Birge
-/// ratio (Physical Review 1932) of the noise model; 1 where one kind alone determines no pose. What offsets do not explain is
+/// ratio of the noise model; 1 where they determine no pose. What offsets do not explain is
 /// an error that the kinds have of their own, such as light that comes late by way of the floor; and what it does to lengths and
 /// intrinsics no cluster of residuals shows. Zeros of joints it hardly looks like: doubting these makes bumps of them.
 fn disagreement(system: &System<'_>, step: &Unknowns) -> f64 {
-    let pose_of = |kind: usize| {
+    let of_kind = |kind: usize| {
         let sum = system.total_of_kind(kind);
         let gradient = sum.gradient + sum.information * step;
-        let covariance = sum.information.fixed_view::<POSE, POSE>(0, 0).try_inverse()?;
-        Some((covariance * gradient.fixed_rows::<POSE>(0), covariance))
+        let information = sum.information.fixed_view::<POSE, POSE>(0, 0).into_owned();
+        // Nearly nothing in a direction is nothing: what rounding leaves would be taken for far away.
+        let pose = information.pseudo_inverse(LEAST_KNOWN * information.amax()).ok()?;
+        Some((information, -pose * gradient.fixed_rows::<POSE>(0)))
     };
-    let of_both = || {
-        let ((surfaces, of_surfaces), (outlines, of_outlines)) =
-            (pose_of(SURFACES)?, pose_of(OUTLINES)?);
-        let apart = surfaces - outlines;
-        let information = (of_surfaces + of_outlines).try_inverse()?;
-        Some(apart.dot(&(information * apart)) / POSE as f64)
-    };
-    of_both().unwrap_or(1.0)
+    let kinds: Option<Vec<_>> = (0..EVIDENCE_KINDS).map(of_kind).collect();
+    kinds.and_then(|kinds| birge_ratio(&kinds)).unwrap_or(1.0)
 }
 
 /// The deviations that make what is seen most likely; those `apart` are off by their own. As few are off as
@@ -314,7 +313,7 @@ mod tests {
         }
     }
 
-    /// A joint would stand out at as many deviations.
+    /// A joint would not need much more.
     #[test]
     fn one_that_is_weakly_off_does_not() {
         for sigmas in [-3.0, 1.0, 3.0] {

@@ -14,7 +14,7 @@ use super::one_kind::{one_kind_each, spread};
 use super::still_part::StillPart;
 use crate::refine::Workspace;
 use eyebolt_geometry::{Base, Camera, Transform};
-use eyebolt_registration::{Doubt, MOST_JOINTS, RefineView, Refinement, Start};
+use eyebolt_registration::{Doubt, MOST_JOINTS, RefineView, Refinement, Start, birge_ratio};
 use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, SVector, Vector3, Vector6};
 
 /// An experiment that shows how far off an answer may be.
@@ -188,22 +188,12 @@ pub(crate) fn expected_at(
 /// so few, rotations were off by up to three times as much as the rest lets one expect.
 const UNTOLD: f64 = 3.0;
 
-/// By how much the variances of the noise model have to be enlarged for the answers of single kinds of
-/// evidence to agree with it (R. T. Birge, Physical Review 1932); infinite where that cannot be told.
-///
-/// The directions in which a kind says nothing count nothing: there it may be anywhere.
+/// By how much single kinds of evidence disagree; infinite where that cannot be told.
 fn birge(refinement: &Refinement, alone: &[Refinement]) -> f64 {
     let pose = &refinement.camera_from_base;
-    let all: Matrix6<f64> = alone.iter().map(|kind| kind.information).sum();
-    let sum: Vector6<f64> =
-        alone.iter().map(|kind| kind.information * pose.local(&kind.camera_from_base)).sum();
-    let Some(mean) = all.cholesky().map(|all| all.solve(&sum)) else { return f64::INFINITY };
-    let of_kind = |kind: &Refinement| {
-        let from_mean = pose.local(&kind.camera_from_base) - mean;
-        from_mean.dot(&(kind.information * from_mean))
-    };
-    let chi_square: f64 = alone.iter().map(of_kind).sum();
-    chi_square / (6.0 * (alone.len() as f64 - 1.0))
+    let kinds: Vec<_> =
+        alone.iter().map(|kind| (kind.information, pose.local(&kind.camera_from_base))).collect();
+    birge_ratio(&kinds).unwrap_or(f64::INFINITY)
 }
 
 /// Covariance that the disagreement of single kinds of evidence lets one expect.
@@ -216,8 +206,8 @@ fn by_disagreement(refinement: &Refinement, birge: f64) -> Matrix6<f64> {
 const OFF: f64 = 0.05;
 
 /// Covariance from what may be off and was taken at its word: each shift as likely as the evidence for it
-/// makes it (Bayesian model averaging; Hoeting et al., Statistical Science 1999). That kinds of evidence disagree makes
-/// it no less: a focal length that is off is why they do.
+/// makes it (Bayesian model averaging; Hoeting et al., Statistical Science 1999). What is left of the disagreement of kinds once
+/// they are allowed for is in the evidence already; all of it would be too much: a focal length that is off is why they disagree.
 fn by_doubts(doubts: &[Doubt]) -> Matrix6<f64> {
     let each = doubts.iter().map(|doubt| {
         let odds = OFF / (1.0 - OFF) * doubt.log_evidence.exp();

@@ -52,8 +52,7 @@ pub fn run(
     progress: &dyn Progress,
     mut tell: impl FnMut(&SessionResult),
 ) -> Result<Summary, StudyError> {
-    let next = AtomicU64::new(study.first);
-    let end = study.first.saturating_add(study.sessions);
+    let next = AtomicU64::new(0);
     let mut summary = Summary::default();
     let total = study.sessions as usize;
     std::thread::scope(|scope| {
@@ -64,8 +63,8 @@ pub fn run(
             let (sender, next) = (sender.clone(), &next);
             scope.spawn(move || {
                 // Nobody listens any more once the study is ended.
-                while let Some(number) = take(next, end)
-                    && sender.send(pool.install(|| session(study, number, cache, clock))).is_ok()
+                while let Some(place) = take(next, study.sessions)
+                    && sender.send(pool.install(|| session(study, place, cache, clock))).is_ok()
                 {
                 }
             });
@@ -73,13 +72,13 @@ pub fn run(
         drop(sender);
         let mut early = BTreeMap::new();
         for (done, result) in results.iter().enumerate() {
-            early.insert(result.session.number, result);
-            while let Some(result) = early.remove(&(study.first + summary.told())) {
+            early.insert(result.session.number - study.first, result);
+            while let Some(result) = early.remove(&summary.told()) {
                 tell(&result);
                 summary.add(&result);
             }
             if let Err(cancelled) = progress.advance(done + 1, total) {
-                next.store(end, Ordering::Relaxed);
+                next.store(study.sessions, Ordering::Relaxed);
                 return Err(cancelled.into());
             }
         }
@@ -87,17 +86,13 @@ pub fn run(
     })
 }
 
-/// The number of a session that nobody has taken.
-fn take(next: &AtomicU64, end: u64) -> Option<u64> {
-    let number = next.fetch_add(1, Ordering::Relaxed);
-    (number < end).then_some(number)
+/// The place of a session that nobody has taken.
+fn take(next: &AtomicU64, sessions: u64) -> Option<u64> {
+    let place = next.fetch_add(1, Ordering::Relaxed);
+    (place < sessions).then_some(place)
 }
 
-fn session(
-    study: &Study,
-    number: u64,
-    cache: &LinkCache,
-    clock: &dyn Fn() -> f64,
-) -> SessionResult {
+fn session(study: &Study, place: u64, cache: &LinkCache, clock: &dyn Fn() -> f64) -> SessionResult {
+    let number = study.first.saturating_add(place);
     try_session(Session::draw(study.seed, number, study.only), cache, clock)
 }
