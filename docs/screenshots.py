@@ -90,7 +90,7 @@ class Page:
             now = self.picture()
             passed = time.monotonic() - begun
             still = before is not None and now.tobytes() == before.tobytes()
-            if still and passed > least_s and len(set(now.resize((64, 64)).getdata())) > 8:
+            if still and passed > least_s and len(now.resize((64, 64)).getcolors(4096)) > 8:
                 return now
             if passed > most_s:
                 sys.exit(f"the page still changes, or is empty, after {most_s} s")
@@ -127,13 +127,14 @@ def rerun(path, output, folder):
 
 
 def main():
-    output = Path(sys.argv[1] if len(sys.argv) > 1 else HERE)
+    output = Path(sys.argv[1] if len(sys.argv) > 1 else HERE).resolve()
     # Chromium may still write when it is killed.
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         folder = Path(folder)
-        recording = folder / "session.mcap"
-        eyebolt.simulate(recording, seed=7)
-        calibration = eyebolt.calibrate(recording=recording)
+        # The report names its recording.
+        os.chdir(folder)
+        eyebolt.simulate("session.mcap", seed=7)
+        calibration = eyebolt.calibrate("session.mcap")
         calibration.report(folder / "report.html")
         capture((folder / "report.html").as_uri(), output / "report.png", (1100, 1000), 3, folder)
         calibration.rerun(folder / "calibration.rrd")
