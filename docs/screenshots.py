@@ -14,6 +14,7 @@ import io
 import json
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -50,6 +51,17 @@ def answered(url, tries=240):
     sys.exit(f"{url} does not answer")
 
 
+def started(command):
+    """A process with a group of its own: `python -m rerun` and Chromium start others."""
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+
+def ended(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
 class Page:
     """A page in Chromium, driven by its debugging protocol."""
 
@@ -61,8 +73,8 @@ class Page:
         options = ["--headless=new", "--no-sandbox", f"--user-data-dir={profile}", f"--window-size={width},{height}"]
         debugging = [f"--remote-debugging-port={port}", "--remote-allow-origins=*"]
         command = [browser, *options, *SOFTWARE, *debugging, url]
-        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        atexit.register(self.close)
+        self.process = started(command)
+        atexit.register(ended, self.process)
         pages = json.loads(answered(f"http://127.0.0.1:{port}/json"))
         address = next(page["webSocketDebuggerUrl"] for page in pages if page["type"] == "page")
         self.socket = websocket.create_connection(address, timeout=120)
@@ -96,17 +108,12 @@ class Page:
                 sys.exit(f"the page still changes, or is empty, after {most_s} s")
             before = now
 
-    def close(self):
-        self.process.kill()
-        self.process.wait()
-
-
 def capture(url, output, size, least_s, folder):
     page = Page(url, *size, tempfile.mkdtemp(dir=folder))
     try:
         picture = page.settled(least_s)
     finally:
-        page.close()
+        ended(page.process)
     picture.quantize(COLORS, dither=Image.Dither.NONE).save(output, optimize=True)
     print(f"{output}: {output.stat().st_size // 1000} kB")
 
@@ -115,15 +122,14 @@ def rerun(path, output, folder):
     """Rerun's viewer for browsers, with this recording."""
     web, data = free_port(), free_port()
     command = [sys.executable, "-m", "rerun", "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(web), "--port", str(data), path]
-    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    server = started(command)
     try:
         answered(f"http://127.0.0.1:{web}/")
         source = urllib.parse.quote(f"rerun+http://127.0.0.1:{data}/proxy", safe="")
         url = f"http://127.0.0.1:{web}/?url={source}&renderer=webgl&hide_welcome_screen=true&theme=light"
         capture(url, output, (1400, 720), 30, folder)
     finally:
-        server.kill()
-        server.wait()
+        ended(server)
 
 
 def main():
