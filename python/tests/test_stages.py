@@ -13,8 +13,6 @@ import eyebolt
 
 from .conftest import arrays_of, program
 
-MODELS = Path(__file__).parents[2] / "models"
-
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -73,14 +71,14 @@ def test_labels(session: Path, tmp_path: Path) -> None:
 
 
 def test_networks_on_arrays_and_recordings(session: Path, simulated: eyebolt.Simulation) -> None:
-    seen = eyebolt.segment(simulated.depth, simulated.camera, model=MODELS / "shackle", names=simulated.names)
+    seen = eyebolt.segment(simulated.depth, simulated.camera, model="shackle", names=simulated.names)
     assert seen.labels.shape == simulated.depth.shape and seen.labels.dtype == np.uint8
     assert seen.names == simulated.names and seen.damaged == []
     assert set(np.unique(seen.labels)) <= {0, 1, 2, 255}
     assert 0.001 < seen.arm.mean() < 0.5
-    of_file = eyebolt.segment(session, model=MODELS / "shackle", networks_alone=True)
+    of_file = eyebolt.segment(session, model="shackle", networks_alone=True)
     assert np.mean(of_file.labels == seen.labels) > 0.999
-    poses = eyebolt.pose(simulated.depth[:2], simulated.camera, model=MODELS / "shackle", robot="shackle")
+    poses = eyebolt.pose(simulated.depth[:2], simulated.camera, model="shackle", robot="shackle")
     assert [pose.frame for pose in poses] == ["0", "1"]
     for found in poses:
         if found.camera_from_end_effector is not None:

@@ -2,6 +2,8 @@
 
 use crate::robots::{Described, DescriptionArguments};
 use anyhow::{Context, Result, bail};
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use eyebolt::model_files::ModelFiles;
 use eyebolt_markers::{Target, TargetError};
 use eyebolt_recording::{
     BagOptions, CloudFile, CloudFrame, DepthUnit, JointNotes, NotedJoints, Recording, WriteRobot,
@@ -81,6 +83,11 @@ pub fn positive(text: &str) -> Result<f64, String> {
 /// A marker as flags write it.
 pub fn marker(text: &str) -> Result<Target, String> {
     text.parse().map_err(|error: TargetError| error.to_string())
+}
+
+/// A model: its folder, or the name of one that comes with the program.
+pub fn model_files() -> impl TypedValueParser<Value = ModelFiles> {
+    PathBufValueParser::new().map(ModelFiles::at)
 }
 
 fn depth_unit(text: &str) -> Result<DepthUnit, String> {

@@ -9,12 +9,13 @@ mod segmented;
 mod teller;
 
 use crate::ending::Ending;
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, use_threads};
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, model_files, use_threads};
 use crate::output;
 use crate::progress::Counting;
 use anyhow::{Result, bail};
 use cloud::CloudForm;
 use destination::Destination;
+use eyebolt::model_files::ModelFiles;
 use eyebolt::progress::Progress;
 use eyebolt::record::FrameImages;
 use eyebolt::report::classes;
@@ -29,9 +30,9 @@ use teller::Teller;
 pub struct Arguments {
     #[command(flatten)]
     recording: RecordingArguments,
-    /// Folder of a model that eyebolt train made, such as models/panda
-    #[arg(long, value_name = "FOLDER")]
-    model: PathBuf,
+    /// Model that eyebolt train made: its folder, or one that comes with the program (any-arm, panda, shackle)
+    #[arg(long, value_name = "MODEL", value_parser = model_files())]
+    model: ModelFiles,
     #[command(flatten)]
     robot: RobotArguments,
     /// Leave the labels as the networks have them; otherwise the pose of the end-effector that explains them says which

@@ -9,6 +9,7 @@
 //! and ADD, with true labels and with predicted ones.
 #![allow(clippy::print_stdout, reason = "what an example is for")]
 
+use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::{EndEffectorShape, PoseAnswer, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::robots::BuiltIn;
 use eyebolt::segment::{END_EFFECTOR, Segmenter, UNKNOWN};
@@ -18,7 +19,6 @@ use eyebolt_recording::{FrameSource, Range};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
 use eyebolt_robot::{Arm, JointPositions, PackageRoots, Robot};
-use std::path::Path;
 use std::time::Instant;
 
 type Failure = Box<dyn std::error::Error>;
@@ -166,7 +166,7 @@ fn main() -> Result<(), Failure> {
         }
     }
     let model = model.ok_or("give MODEL [ROBOT.urdf]")?;
-    let model = Path::new(&model);
+    let model = ModelFiles::at(model.into());
     let (arm, urdf) = robot(urdf.as_deref())?;
     let cache = LinkCache::new(std::env::temp_dir().join("eyebolt-pose-truth-links"));
     let shape = EndEffectorShape::of(&arm, &cache)?;
@@ -176,15 +176,15 @@ fn main() -> Result<(), Failure> {
         println!("{} labels", if true_labels { "true" } else { "predicted" });
         let wanted = |row: &&(&str, PoseMethod, bool)| only.as_deref().is_none_or(|it| it == row.0);
         for (name, method, refines) in ROWS.iter().filter(wanted).copied() {
-            let Ok(mut estimator) = PoseEstimator::open(model, shape.clone(), method) else {
+            let Ok(mut estimator) = PoseEstimator::open(&model, shape.clone(), method) else {
                 continue;
             };
             estimator.refines = refines;
             let mut recognizer = match true_labels {
                 true => None,
                 false => Some(Recognizer::new(
-                    Segmenter::open(model)?,
-                    PoseEstimator::open(model, shape.clone(), PoseMethod::Fused)?,
+                    Segmenter::open(&model)?,
+                    PoseEstimator::open(&model, shape.clone(), PoseMethod::Fused)?,
                 )),
             };
             let (mut row, mut seconds) = (Row { each, ..Row::default() }, 0.0);

@@ -3,6 +3,7 @@
 //! Points count, not pixels: those with depth, but for those within 3 pixels of the mask's edge.
 #![allow(clippy::print_stdout)]
 
+use eyebolt::model_files::ModelFiles;
 use eyebolt::segment::Confusion;
 use eyebolt::segment::{BACKGROUND, Segmenter, UNKNOWN};
 use eyebolt_geometry::{DepthImage, Mask};
@@ -15,7 +16,7 @@ type Failure = Box<dyn std::error::Error>;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let model = arguments.next().ok_or("give MODEL FOLDER...")?;
-    let mut segmenter = Segmenter::open(Path::new(&model))?;
+    let mut segmenter = Segmenter::open(&ModelFiles::at(model.into()))?;
     for folder in arguments {
         let recording = Recording::open(folder.as_ref(), &BagOptions::default())?;
         let camera = recording.camera().ok_or("a recording of depth images is needed")?;

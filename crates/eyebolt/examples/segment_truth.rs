@@ -5,6 +5,7 @@
 //! segmentation: precision and recall by point.
 #![allow(clippy::print_stdout, reason = "what an example is for")]
 
+use eyebolt::model_files::ModelFiles;
 use eyebolt::robots::BuiltIn;
 use eyebolt::segment::Confusion;
 use eyebolt::segment::{Segmenter, UNKNOWN};
@@ -13,7 +14,6 @@ use eyebolt_recording::{FrameSource, Range};
 use eyebolt_registration::LinkCache;
 use eyebolt_render::Sensor;
 use eyebolt_robot::{PackageRoots, Robot};
-use std::path::Path;
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -22,7 +22,7 @@ const CONFIGURATIONS: usize = 6;
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let model = arguments.next().ok_or("give MODEL [ROBOT.urdf]")?;
-    let mut segmenter = Segmenter::open(Path::new(&model))?;
+    let mut segmenter = Segmenter::open(&ModelFiles::at(model.into()))?;
     let (arm, urdf) = match arguments.next() {
         Some(path) => {
             let robot = Robot::from_urdf_file(path.as_ref(), &PackageRoots::new())?;

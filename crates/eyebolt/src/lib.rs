@@ -17,6 +17,7 @@ pub mod label;
 mod made_up;
 pub mod marker_answer;
 pub mod markers;
+pub mod model_files;
 pub mod monitor;
 pub mod networks;
 pub mod observations;

@@ -1,12 +1,12 @@
 //! The networks of a model at work in a calibration.
 
 use crate::label::Learned;
+use crate::model_files::ModelFiles;
 use crate::pipeline::Request;
 use crate::pose::{
     ByEndEffector, EndEffectorShape, GlobalSearch, PoseError, PoseEstimator, PoseMethod,
 };
 use crate::segment::{SegmentError, Segmenter};
-use std::path::Path;
 
 /// The networks of a model: they tell the arm's pixels, whatever else moves, and where its end-effector is, if they know
 /// it.
@@ -32,15 +32,15 @@ pub enum NetworksError {
 const FEWEST: usize = 2;
 
 impl Networks {
-    /// Of the folder of a model that `eyebolt train` made, for the arm and the seed of `request`.
+    /// Of a model that `eyebolt train` made, for the arm and the seed of `request`.
     ///
     /// # Errors
     ///
     /// Files that are not there, broken, or of another robot; an end-effector without a shape.
-    pub fn open(folder: &Path, request: &Request<'_>) -> Result<Self, NetworksError> {
-        let segmenter = Segmenter::open(folder)?;
+    pub fn open(model: &ModelFiles, request: &Request<'_>) -> Result<Self, NetworksError> {
+        let segmenter = Segmenter::open(model)?;
         let estimator = match segmenter.tells_end_effector() {
-            true => estimator(folder, request)?,
+            true => estimator(model, request)?,
             false => None,
         };
         let proposer = estimator.map(|it| ByEndEffector::new(it, GlobalSearch::new(request.seed)));
@@ -58,9 +58,12 @@ impl Networks {
 }
 
 /// `None` of a model that has no networks for poses.
-fn estimator(folder: &Path, request: &Request<'_>) -> Result<Option<PoseEstimator>, PoseError> {
+fn estimator(
+    model: &ModelFiles,
+    request: &Request<'_>,
+) -> Result<Option<PoseEstimator>, PoseError> {
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
-    match PoseEstimator::open(folder, shape, PoseMethod::Fused) {
+    match PoseEstimator::open(model, shape, PoseMethod::Fused) {
         Err(PoseError::NoNetwork { .. }) => Ok(None),
         opened => opened.map(Some),
     }

@@ -414,7 +414,7 @@ def calibrate(
         joint: Positions of joints that are not recorded, such as fingers, radians or metres.
         joint_prefix: What the recorded names of joints have before the URDF's, or the other way round.
         allow_outside_files: Let a robot description that comes from a bag name files outside the package folders.
-        model: Folder of a model that `train` made: networks tell the arm's pixels, whatever else moves.
+        model: Model that `train` made, its folder or one that comes with eyebolt: networks tell the arm's pixels, whatever else moves.
         method: `best`, `nothing` (from nothing, even with a model) or `paper`.
         no_icp, labels: Of the method `paper`, as the program has them.
         no_masks: Find the arm's pixels by what moved, even if there are masks.

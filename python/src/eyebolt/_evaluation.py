@@ -88,7 +88,7 @@ def evaluate_models(
 
     Args:
         recordings: Recordings that `simulate` wrote; others with `calibration`.
-        model: Folder of a model, or `NAME=FOLDER`; several are compared.
+        model: Folder of a model, one that comes with eyebolt, or `NAME=` and either; several are compared.
         calibration: What to take for the truth of recordings that have none, one for each.
         marker, marked: A marker, and recordings with it on the hand, that are calibrated by it.
         robot, base, end_effector, package_path, xacro_arg, joint, joint_prefix, allow_outside_files: As of `calibrate`.

@@ -78,7 +78,7 @@ def segment(
 
     Args:
         depth, camera, names, depth_unit: A recording or frames, as of `calibrate`.
-        model: Folder of a model that `train` made, such as `models/any-arm`.
+        model: Model that `train` made: its folder, or one that comes with eyebolt (`any-arm`, `panda`, `shackle`).
         robot, base, end_effector, package_path, xacro_arg, joint, joint_prefix, allow_outside_files: As of `calibrate`; with them, the
             pose that explains what networks say decides which pixels are the end-effector's.
         networks_alone: What the networks say, without that.
@@ -146,7 +146,7 @@ def pose(
 
     Args:
         depth, camera, joints, joint_names, names, depth_unit: A recording or frames, as of `calibrate`; arrays need no joints.
-        model: Folder of a model that `train` made for this end-effector.
+        model: Model that `train` made for this end-effector: its folder, or one that comes with eyebolt.
         robot, base, end_effector, package_path, xacro_arg, joint, joint_prefix, allow_outside_files: As of `calibrate`.
         method: How the pose comes about, as the program has it: `fused`...
         no_icp: Leave the pose as the networks have it.

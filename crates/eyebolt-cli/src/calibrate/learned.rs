@@ -1,6 +1,8 @@
 //! What networks have to do with a calibration.
 
+use crate::inputs::model_files;
 use anyhow::{Result, bail};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::networks::Networks;
 use eyebolt::paper::{self, FrameEstimator, FrameLabels, Paper};
 use eyebolt::pipeline::{self, Outcome, Request};
@@ -9,15 +11,15 @@ use eyebolt::progress::Progress;
 use eyebolt::segment::Segmenter;
 use eyebolt_recording::read_truth;
 use eyebolt_registration::Start;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Options of networks.
 #[derive(Default, Debug, clap::Args)]
 pub struct LearnedArguments {
-    /// Folder of a model that eyebolt train made, such as models/panda or models/any-arm: networks tell the arm's
-    /// pixels, whatever else moves, and where its end-effector is
-    #[arg(long, value_name = "FOLDER")]
-    pub model: Option<PathBuf>,
+    /// Model that eyebolt train made: its folder, or one that comes with the program (any-arm, panda, shackle). Its
+    /// networks tell the arm's pixels, whatever else moves, and where its end-effector is
+    #[arg(long, value_name = "MODEL", value_parser = model_files())]
+    pub model: Option<ModelFiles>,
     /// How to calibrate
     #[arg(long, value_enum, default_value = "best")]
     pub method: Method,
@@ -52,21 +54,21 @@ pub enum LabelsFrom {
 }
 
 /// The model that a method needs.
-fn model(arguments: &LearnedArguments) -> Result<&Path> {
-    match arguments.model.as_deref() {
+fn model(arguments: &LearnedArguments) -> Result<&ModelFiles> {
+    match &arguments.model {
         Some(model) => Ok(model),
-        None => bail!("--method paper needs the networks of a model. Name its folder with --model"),
+        None => bail!("--method paper needs the networks of a model. Name one with --model"),
     }
 }
 
 /// Better told once than of each recording: a model that is missing.
 pub fn check(arguments: &LearnedArguments) -> Result<()> {
-    let folder = match (arguments.method, &arguments.model) {
+    let model = match (arguments.method, &arguments.model) {
         (Method::Paper, _) => Some(model(arguments)?),
-        (Method::Best, Some(folder)) => Some(folder.as_path()),
+        (Method::Best, Some(model)) => Some(model),
         (Method::Best | Method::Nothing, _) => None,
     };
-    folder.map(Segmenter::open).transpose()?;
+    model.map(Segmenter::open).transpose()?;
     Ok(())
 }
 
@@ -79,8 +81,8 @@ pub fn calibrate(
 ) -> Result<Outcome> {
     match (arguments.method, &arguments.model) {
         (Method::Paper, _) => by_paper(arguments, model(arguments)?, recording, request, progress),
-        (Method::Best, Some(folder)) => {
-            let networks = Networks::open(folder, request)?;
+        (Method::Best, Some(model)) => {
+            let networks = Networks::open(model, request)?;
             Ok(pipeline::run(&networks.request(request), progress)?)
         }
         (Method::Best | Method::Nothing, _) => Ok(pipeline::run(request, progress)?),
@@ -89,7 +91,7 @@ pub fn calibrate(
 
 fn by_paper(
     arguments: &LearnedArguments,
-    folder: &Path,
+    model: &ModelFiles,
     recording: &Path,
     request: &Request<'_>,
     progress: &dyn Progress,
@@ -97,13 +99,13 @@ fn by_paper(
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
     let labels = match arguments.labels {
         LabelsFrom::Predicted => {
-            FrameLabels::Predicted(Box::new(Recognizer::open(folder, shape.clone())?))
+            FrameLabels::Predicted(Box::new(Recognizer::open(model, shape.clone())?))
         }
         LabelsFrom::True => {
             FrameLabels::True(Box::new(Start::from(read_truth(recording)?.camera_from_base)))
         }
     };
-    let estimator = PoseEstimator::open(folder, shape, PoseMethod::Fused)?;
+    let estimator = PoseEstimator::open(model, shape, PoseMethod::Fused)?;
     let estimator = FrameEstimator::new(estimator, !arguments.no_icp);
     let mut paper = Paper { labels, estimator };
     Ok(match paper::calibrate(request, &mut paper, progress) {

@@ -7,6 +7,7 @@ use crate::output;
 use anyhow::{Context, Result, bail};
 use eyebolt::evaluate::{Calibrated, Model, Reference, Scores, Table, by_marker, session, tables};
 use eyebolt::export::SavedCalibration;
+use eyebolt::model_files::ModelFiles;
 use eyebolt::pipeline::Request;
 use eyebolt::progress::Progress;
 use eyebolt::report::tables_page;
@@ -104,13 +105,13 @@ fn about(wanted: &Wanted<'_>) -> String {
     }
 }
 
-/// A folder, with or without a name before it.
+/// A model, with or without another name before it.
 fn model(named: &str) -> Model {
-    let (name, folder) = match named.split_once('=') {
-        Some((name, folder)) => (name.to_owned(), PathBuf::from(folder)),
-        None => (short_name(Path::new(named)), PathBuf::from(named)),
+    let (name, model) = match named.split_once('=') {
+        Some((name, model)) => (name.to_owned(), model),
+        None => (short_name(Path::new(named)), named),
     };
-    Model { name, folder }
+    Model { name, files: ModelFiles::at(model.into()) }
 }
 
 fn short_name(path: &Path) -> String {

@@ -1,7 +1,8 @@
 //! Flags of `eyebolt pose`.
 
-use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments};
+use crate::inputs::{CacheArguments, RecordingArguments, RobotArguments, model_files};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::PoseMethod;
 use std::path::PathBuf;
 
@@ -12,9 +13,10 @@ pub struct Arguments {
     pub(super) recording: RecordingArguments,
     #[command(flatten)]
     pub(super) robot: RobotArguments,
-    /// Folder of a model that eyebolt train made for this end-effector, such as models/panda
-    #[arg(long, value_name = "FOLDER")]
-    pub(super) model: PathBuf,
+    /// Model that eyebolt train made for this end-effector: its folder, or one that comes with the program (panda,
+    /// shackle)
+    #[arg(long, value_name = "MODEL", value_parser = model_files())]
+    pub(super) model: ModelFiles,
     /// How the pose comes about: by rotation and translation, by matched points, or by both and what the
     /// image supports
     #[arg(long, default_value = "fused", value_parser = method())]

@@ -1,5 +1,7 @@
 //! What `eyebolt reproduce` is asked for.
 
+use crate::inputs::model_files;
+use eyebolt::model_files::ModelFiles;
 use std::path::PathBuf;
 
 /// Options of `eyebolt reproduce`.
@@ -14,9 +16,9 @@ pub struct Arguments {
     /// In ten minutes instead of hours: fewer frames, and networks that have hardly learned
     #[arg(long)]
     pub quick: bool,
-    /// Evaluate the networks of this folder, instead of recording, labelling and training
-    #[arg(long, value_name = "FOLDER")]
-    pub model: Option<PathBuf>,
+    /// Evaluate this model, its folder or one that comes with the program, instead of recording, labelling and training
+    #[arg(long, value_name = "MODEL", value_parser = model_files())]
+    pub model: Option<ModelFiles>,
     /// Also teach networks on each of the three training poses alone, and evaluate each on each test pose
     #[arg(long, conflicts_with = "model")]
     pub each: bool,
@@ -24,6 +26,6 @@ pub struct Arguments {
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "model")]
     pub steps: Option<u64>,
     /// Begin with the weights of another model, as far as they fit
-    #[arg(long, value_name = "FOLDER", conflicts_with = "model")]
-    pub from: Option<PathBuf>,
+    #[arg(long, value_name = "MODEL", value_parser = model_files(), conflicts_with = "model")]
+    pub from: Option<ModelFiles>,
 }

@@ -34,7 +34,7 @@ pub fn steps(arguments: &Arguments) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut models = Vec::new();
     match &arguments.model {
-        Some(folder) => models.push(word(folder)),
+        Some(model) => models.push(word(&model.place(""))),
         None => {
             let recorded = |(index, pose): (usize, &&str)| {
                 record(arguments, "train", pose, index, size.training)
@@ -110,7 +110,7 @@ fn train(arguments: &Arguments, name: &str, poses: &[&str], steps: u64) -> Step 
     }
     words.extend(["--steps".into(), steps.to_string()]);
     if let Some(from) = &arguments.from {
-        words.extend(["--from".into(), word(from)]);
+        words.extend(["--from".into(), word(&from.place(""))]);
     }
     words.extend(["--output".into(), word(&folder)]);
     let about = format!("teach the networks, {} of the training poses", poses.len());

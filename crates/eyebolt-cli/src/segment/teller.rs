@@ -3,12 +3,12 @@
 use crate::ending::causes;
 use crate::output;
 use anyhow::Result;
+use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::{EndEffectorShape, PoseError, RecognizeError, Recognizer};
 use eyebolt::segment::{Segmentation, Segmenter};
 use eyebolt_geometry::{DepthImage, PinholeCamera};
 use eyebolt_registration::LinkCache;
 use eyebolt_robot::Arm;
-use std::path::Path;
 
 /// Who tells which pixels are what.
 pub enum Teller {
@@ -19,13 +19,13 @@ pub enum Teller {
 }
 
 impl Teller {
-    /// Networks alone, of the folder of a model.
-    pub fn networks(model: &Path) -> Result<Self> {
+    /// Networks alone.
+    pub fn networks(model: &ModelFiles) -> Result<Self> {
         Ok(Self::Networks(Box::new(Segmenter::open(model)?)))
     }
 
     /// All networks of a model, if it has those for poses and the robot is known: any arm can be told from the rest without.
-    pub fn posed(model: &Path, arm: Result<Arm>, cache: &LinkCache) -> Result<Self> {
+    pub fn posed(model: &ModelFiles, arm: Result<Arm>, cache: &LinkCache) -> Result<Self> {
         let alone = Self::networks(model)?;
         if !alone.tells_end_effector() {
             return Ok(alone);

@@ -1,10 +1,11 @@
 //! What `eyebolt train` is asked for.
 
-use crate::inputs::{CacheArguments, positive};
+use crate::inputs::{CacheArguments, model_files, positive};
 use crate::simulate::flags::RobotArguments;
 use crate::simulate::numbers;
 use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::train::Preset;
 use std::path::PathBuf;
 
@@ -63,8 +64,8 @@ pub struct Arguments {
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Begin with the weights of another model, as far as they fit: an arm is learned faster from any-arm
-    #[arg(long, value_name = "FOLDER")]
-    pub from: Option<PathBuf>,
+    #[arg(long, value_name = "MODEL", value_parser = model_files())]
+    pub from: Option<ModelFiles>,
     /// Folder of the model; begun networks in it are gone on with, ready ones are left as they are
     #[arg(short, long, value_name = "FOLDER")]
     pub output: PathBuf,

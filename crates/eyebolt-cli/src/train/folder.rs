@@ -2,7 +2,8 @@
 
 use crate::front::Front;
 use crate::output;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::train::{Keep, Report, TrainError, events};
 use eyebolt_net::models::Model;
 use std::path::{Path, PathBuf};
@@ -57,17 +58,17 @@ impl<'a> ModelFolder<'a> {
 
     /// Weights of the network of the same kind in the folder of another model; none if that model, as any-arm,
     /// has no such network.
-    pub fn weights_of(&self, model: &Path) -> Result<Option<Vec<u8>>> {
-        let own = self.path.file_name().unwrap_or_default();
-        if model.join("segmentation").is_dir() && !model.join(own).is_dir() {
-            self.front.say(&format!("  {} has none to begin with", model.display()));
+    pub fn weights_of(&self, model: &ModelFiles) -> Result<Option<Vec<u8>>> {
+        let own = self.path.file_name().unwrap_or_default().to_string_lossy();
+        if model.has("segmentation") && !model.has(&own) {
+            self.front.say(&format!("  {} has none to begin with", model.place("").display()));
             return Ok(None);
         }
-        let path = model.join(own).join(WEIGHTS);
-        let failed = || {
-            format!("{}: cannot read it. Name the folder of a model with --from", path.display())
-        };
-        std::fs::read(&path).map(Some).with_context(failed)
+        let weights = model.weights(&own).map_err(|(path, source)| {
+            let remedy = "Name a model with --from";
+            anyhow!(source).context(format!("{}: cannot read it. {remedy}", path.display()))
+        })?;
+        Ok(Some(weights.into_owned()))
     }
 
     /// Lines that were written before; what is not a line of ours is left out.

@@ -7,10 +7,6 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-fn models(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name)
-}
-
 /// How far a calibration of the simulated recording is off, millimetres and degrees.
 fn off(calibration: &Path) -> (f64, f64) {
     let ended = eyebolt(&["evaluate", text(&SIMULATED), text(calibration), "--json"]);
@@ -23,13 +19,13 @@ fn off(calibration: &Path) -> (f64, f64) {
 fn with_a_model_a_calibration_is_as_good_as_from_nothing() {
     let desk = Desk::new();
     for name in ["shackle", "any-arm"] {
-        let (model, path) = (models(name), desk.file(&format!("{name}.json")));
-        let ended = calibrate(&SIMULATED, &path, &["--model", text(&model), "--threads", "1"]);
+        let path = desk.file(&format!("{name}.json"));
+        let ended = calibrate(&SIMULATED, &path, &["--model", name, "--threads", "1"]);
         assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", ended.out);
         let (mm, deg) = off(&path);
         assert!(mm < 2.0 && deg < 0.15, "{name}: {mm} mm, {deg} deg");
         let again = desk.file("again.json");
-        calibrate(&SIMULATED, &again, &["--model", text(&model), "--threads", "2", "--force"]);
+        calibrate(&SIMULATED, &again, &["--model", name, "--threads", "2", "--force"]);
         assert!(fs::read(&again).unwrap() == fs::read(&path).unwrap(), "{name}");
     }
 }
@@ -38,10 +34,9 @@ fn with_a_model_a_calibration_is_as_good_as_from_nothing() {
 #[test]
 fn the_papers_way_knows_how_far_it_is_off() {
     let desk = Desk::new();
-    let model = models("shackle");
     for more in [&["--no-icp"][..], &["--labels", "true"]] {
         let path = desk.file("paper.json");
-        let more = [&["--model", text(&model), "--method", "paper", "--force"], more].concat();
+        let more = [&["--model", "shackle", "--method", "paper", "--force"], more].concat();
         let ended = calibrate(&SIMULATED, &path, &more);
         assert_eq!(ended.code, Some(3), "{}", ended.err);
         let rejected = desk.file("paper.rejected.json");
@@ -61,19 +56,20 @@ fn what_a_method_lacks_is_named() {
         assert!(desk.names().is_empty());
     };
     refused(&SIMULATED, &["--method", "paper"], &["--method paper", "--model"]);
-    let any_arm = models("any-arm");
-    let paper = ["--method", "paper", "--model", text(&any_arm)];
+    let paper = ["--method", "paper", "--model", "any-arm"];
     refused(&SIMULATED, &paper, &["any-arm", "end-effector", "eyebolt train"]);
-    let shackle = models("shackle");
-    let of_truth = ["--method", "paper", "--labels", "true", "--model", text(&shackle)];
+    let of_truth = ["--method", "paper", "--labels", "true", "--model", "shackle"];
     refused(&RECORDING, &of_truth, &["truth"]);
-    refused(&SIMULATED, &["--model", "nowhere"], &["nowhere", "eyebolt train"]);
+    refused(
+        &SIMULATED,
+        &["--model", "nowhere"],
+        &["nowhere", "any-arm, panda, shackle", "eyebolt train"],
+    );
 }
 
 fn evaluate(more: &[&str]) -> Ended {
-    let model = models("shackle");
-    let named = format!("ours={}", text(&model));
-    let fixed = ["evaluate", text(&SIMULATED), "--model", &named, "--cache", text(&CACHE)];
+    let named = "ours=shackle";
+    let fixed = ["evaluate", text(&SIMULATED), "--model", named, "--cache", text(&CACHE)];
     eyebolt(&[&fixed, more].concat())
 }
 

@@ -10,13 +10,8 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-fn models(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name)
-}
-
 fn pose(more: &[&str]) -> Ended {
-    let model = models("shackle");
-    let fixed = ["pose", text(&SIMULATED), "--model", text(&model), "--cache", text(&CACHE)];
+    let fixed = ["pose", text(&SIMULATED), "--model", "shackle", "--cache", text(&CACHE)];
     eyebolt(&[&fixed, more].concat())
 }
 
@@ -65,8 +60,8 @@ fn every_frame_has_its_line_and_no_answer_is_far_off() {
 #[test]
 fn a_cloud_has_the_pose_that_its_image_has() {
     let desk = Desk::new();
-    let (clouds, model) = (desk.file("clouds"), models("shackle"));
-    let model = ["--model", text(&model), "--cache", text(&CACHE)];
+    let clouds = desk.file("clouds");
+    let model = ["--model", "shackle", "--cache", text(&CACHE)];
     let segment = ["segment", text(&SIMULATED), "-o", text(&clouds), "--clouds", "pcd"];
     assert_eq!(eyebolt(&[&segment[..], &model, &["--networks-alone"]].concat()).code, Some(0));
     let places = |said: &str| -> Vec<Option<[f64; 3]>> {
@@ -112,12 +107,11 @@ fn a_recording_that_grows_is_followed() {
     };
     let (first, last) = messages.split_at(2 * messages.len() / 3);
     write(first);
-    let model = models("shackle");
     let topic = "/camera/depth/image_raw";
     let words = ["pose", text(&growing), "--follow", "--json", "--robot", "shackle"];
     let words = [&words[..], &["--depth-topic", topic]].concat();
     let mut child = Command::new(env!("CARGO_BIN_EXE_eyebolt"))
-        .args([&words[..], &["--model", text(&model), "--cache", text(&CACHE)]].concat())
+        .args([&words[..], &["--model", "shackle", "--cache", text(&CACHE)]].concat())
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
@@ -130,7 +124,7 @@ fn a_recording_that_grows_is_followed() {
     assert_eq!(all.len(), 15);
     let answered = all.iter().filter(|line| line.contains("\"answered\":true")).count();
     assert!(answered >= 10, "{all:?}");
-    eyebolt(&["pose", text(&RECORDING), "--follow", "--model", text(&model)])
+    eyebolt(&["pose", text(&RECORDING), "--follow", "--model", "shackle"])
         .assert_error(1, &["--follow", "MCAP"]);
 }
 
@@ -149,6 +143,6 @@ fn models_of_something_else_are_refused() {
     let refused = |model: &Path, words: &[&str]| {
         eyebolt(&["pose", text(&SIMULATED), "--model", text(model)]).assert_error(1, words);
     };
-    refused(&models("any-arm"), &["any-arm", "end-effector", "eyebolt train"]);
+    refused(Path::new("any-arm"), &["any-arm", "end-effector", "eyebolt train"]);
     refused(Path::new("nowhere"), &["nowhere", "eyebolt train"]);
 }

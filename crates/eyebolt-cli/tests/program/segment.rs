@@ -9,13 +9,8 @@ use std::path::{Path, PathBuf};
 
 const FRAMES: usize = 15;
 
-fn models(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name)
-}
-
 fn segment(from: &Path, to: &Path, model: &str, more: &[&str]) -> Ended {
-    let model = models(model);
-    let fixed = ["segment", text(from), "--model", text(&model), "-o", text(to)];
+    let fixed = ["segment", text(from), "--model", model, "-o", text(to)];
     eyebolt(&[&fixed, more, &["--cache", text(&CACHE)]].concat())
 }
 
@@ -110,8 +105,7 @@ fn a_cloud_alone_is_enough() {
     // As many points as the cloud had, seen by a camera of another size.
     let ratio = again as f64 / before as f64;
     assert!((0.7..1.4).contains(&ratio), "{again} points of the arm, {before} before");
-    let model = models("shackle");
-    let pose = ["pose", text(&cloud), "--model", text(&model), "--cache", text(&CACHE)];
+    let pose = ["pose", text(&cloud), "--model", "shackle", "--cache", text(&CACHE)];
     eyebolt(&pose).assert_error(1, &["cloud_0.pcd", "--robot"]);
     let json = eyebolt(&[&pose[..], &["--robot", "shackle", "--json"]].concat()).out;
     assert!(json.contains("\"frame\":\"cloud_0\""), "{json}");

@@ -6,6 +6,7 @@ use super::scores::{BEST, Calibrated, METHODS, NOTHING, OURS, OURS_ICP, Scores, 
 use crate::end_effector::{EndEffector, EndEffectorError};
 use crate::label::{FrameLabeller, class_of};
 use crate::markers::MarkerFailure;
+use crate::model_files::ModelFiles;
 use crate::networks::{Networks, NetworksError};
 use crate::observations::Observations;
 use crate::paper::{self, FrameEstimator, FrameLabels, Paper, PaperError};
@@ -17,7 +18,6 @@ use crate::progress::{Cancelled, Progress};
 use crate::record::{RecordError, SingleFrames, observe};
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::Start;
-use std::path::{Path, PathBuf};
 
 /// What a recording is held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +26,13 @@ pub struct Reference {
     pub camera_from_base: Transform<Camera, Base>,
 }
 
-/// The networks of a folder.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The networks of a model.
+#[derive(Clone, Debug)]
 pub struct Model {
     /// What it is called in tables.
     pub name: String,
-    /// Folder that `eyebolt train` made.
-    pub folder: PathBuf,
+    /// Its networks.
+    pub files: ModelFiles,
 }
 
 /// What keeps a recording from being evaluated.
@@ -115,8 +115,8 @@ fn frames(
     );
     let frames = SingleFrames::new(source, observations, &request.options);
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
-    let mut recognizer = Recognizer::open(&model.folder, shape)?;
-    let mut estimators = Estimators::open(request, &model.folder)?;
+    let mut recognizer = Recognizer::open(&model.files, shape)?;
+    let mut estimators = Estimators::open(request, &model.files)?;
     let mut scores = Scores::default();
     let count = source.frame_names().len();
     for index in 0..count {
@@ -153,10 +153,10 @@ fn frames(
 struct Estimators(Vec<PoseEstimator>);
 
 impl Estimators {
-    fn open(request: &Request<'_>, folder: &Path) -> Result<Self, EvaluateError> {
+    fn open(request: &Request<'_>, model: &ModelFiles) -> Result<Self, EvaluateError> {
         let shape = EndEffectorShape::of(request.arm, &request.cache)?;
         let open = |(_, method): &(&str, PoseMethod)| match PoseEstimator::open(
-            folder,
+            model,
             shape.clone(),
             *method,
         ) {
@@ -179,11 +179,11 @@ fn calibrations(
     model: &Model,
     progress: &dyn Progress,
 ) -> Result<Vec<(&'static str, Outcome)>, EvaluateError> {
-    let folder = &model.folder;
+    let files = &model.files;
     let shape = EndEffectorShape::of(request.arm, &request.cache)?;
-    let open = || PoseEstimator::open(folder, shape.clone(), PoseMethod::Fused);
+    let open = || PoseEstimator::open(files, shape.clone(), PoseMethod::Fused);
     let predicted = || {
-        let recognizer = Recognizer::open(folder, shape.clone())?;
+        let recognizer = Recognizer::open(files, shape.clone())?;
         Ok::<_, EvaluateError>(FrameLabels::Predicted(Box::new(recognizer)))
     };
     let known = FrameLabels::True(Box::new(Start::from(*camera_from_base)));
@@ -195,7 +195,7 @@ fn calibrations(
         outcomes
             .push((method, paper::calibrate(request, &mut Paper { labels, estimator }, progress)?));
     }
-    let networks = Networks::open(folder, request)?;
+    let networks = Networks::open(files, request)?;
     outcomes.push((BEST, pipeline::run(&networks.request(request), progress)?));
     outcomes.push((NOTHING, pipeline::run(request, progress)?));
     Ok(outcomes)

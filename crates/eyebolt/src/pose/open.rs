@@ -1,47 +1,42 @@
-//! Networks in the folder of a model.
+//! Networks of a model for poses.
 
 use super::estimator::PoseEstimator;
 use super::keypoint_net::KeypointNet;
 use super::rotation_net::{PoseNetError, RotationNet};
 use super::shape::EndEffectorShape;
 use super::{PoseError, PoseMethod};
+use crate::model_files::ModelFiles;
 use eyebolt_net::models::Model;
-use std::path::Path;
 
 impl PoseEstimator {
-    /// Of `shape`, by the networks in the folder of a model that `eyebolt train` made for it.
+    /// Of `shape`, by the networks of a model that `eyebolt train` made for it.
     ///
     /// # Errors
     ///
     /// Files that are broken, or of something else; no network that `method` needs.
     pub fn open(
-        folder: &Path,
+        model: &ModelFiles,
         shape: EndEffectorShape,
         method: PoseMethod,
     ) -> Result<Self, PoseError> {
-        let rotation = open(folder, "rotation", RotationNet::new)?;
-        let keypoints = open(folder, "keypoints", KeypointNet::new)?;
+        let rotation = open(model, "rotation", RotationNet::new)?;
+        let keypoints = open(model, "keypoints", KeypointNet::new)?;
         Self::new(shape, rotation, keypoints, method)
     }
 }
 
-/// The network in the folder of that name, if it is there.
+/// The network of that name, if it is there.
 fn open<N>(
-    folder: &Path,
+    model: &ModelFiles,
     name: &str,
     make: impl Fn(Model) -> Result<N, PoseNetError>,
 ) -> Result<Option<N>, PoseError> {
-    let folder = folder.join(name);
-    if !folder.join("model.toml").exists() {
+    if !model.has(name) {
         return Ok(None);
     }
-    let file = |name: &str| {
-        let path = folder.join(name);
-        std::fs::read(&path).map_err(|source| PoseError::Read { path, source })
-    };
-    let text = String::from_utf8_lossy(&file("model.toml")?).into_owned();
-    let weights = file("weights.safetensors")?;
-    let model = Model::load(&text, &weights).map_err(PoseNetError::from).and_then(make);
-    let failed = |source| PoseError::Model { folder: folder.clone(), source };
-    model.map(Some).map_err(failed)
+    let failed = |(path, source)| PoseError::Read { path, source };
+    let text = model.description(name).map_err(failed)?;
+    let weights = model.weights(name).map_err(failed)?;
+    let net = Model::load(&text, &weights).map_err(PoseNetError::from).and_then(make);
+    net.map(Some).map_err(|source| PoseError::Model { folder: model.place(name), source })
 }

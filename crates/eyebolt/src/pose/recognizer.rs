@@ -3,11 +3,11 @@
 use super::estimator::{PoseAnswer, PoseEstimator};
 use super::shape::EndEffectorShape;
 use super::{PoseError, PoseMethod};
+use crate::model_files::ModelFiles;
 use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, SegmentError, Segmentation, Segmenter};
 use eyebolt_geometry::{Base, Camera, DepthImage, PinholeCamera, Transform};
 use eyebolt_registration::Posture;
 use eyebolt_render::Raster;
-use std::path::Path;
 
 /// Networks that tell the end-effector's pixels, held against the shape that they should show.
 ///
@@ -56,14 +56,14 @@ impl Recognizer {
         Self { segmenter: self.segmenter.with_probabilities(), ..self }
     }
 
-    /// By all the networks in the folder of a model that `eyebolt train` made for `shape`.
+    /// By all the networks of a model that `eyebolt train` made for `shape`.
     ///
     /// # Errors
     ///
     /// Files that are not there, broken, or of something else; a model that does not tell the end-effector, or not its pose.
-    pub fn open(folder: &Path, shape: EndEffectorShape) -> Result<Self, RecognizeError> {
-        let segmenter = Segmenter::open_for_end_effector(folder)?;
-        Ok(Self::new(segmenter, PoseEstimator::open(folder, shape, PoseMethod::Fused)?))
+    pub fn open(model: &ModelFiles, shape: EndEffectorShape) -> Result<Self, RecognizeError> {
+        let segmenter = Segmenter::open_for_end_effector(model)?;
+        Ok(Self::new(segmenter, PoseEstimator::open(model, shape, PoseMethod::Fused)?))
     }
 
     /// What `depth`, which `camera` saw, shows: its end-effector with its links in one of `postures`; if there is none, with

@@ -1,5 +1,6 @@
 //! Why nothing is segmented.
 
+use crate::model_files::ModelFiles;
 use std::path::{Path, PathBuf};
 
 /// Why nothing is segmented.
@@ -20,8 +21,9 @@ pub enum SegmentError {
     },
     /// A file of the model cannot be read.
     #[error(
-        "{}: cannot read it. Name the folder of a model, or make one with eyebolt train",
-        path.display()
+        "{}: cannot read it. Name the folder of a model, or one that comes with eyebolt ({}), or make one with eyebolt train",
+        path.display(),
+        ModelFiles::names().join(", ")
     )]
     Read {
         /// The file.

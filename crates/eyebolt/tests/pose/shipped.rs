@@ -1,17 +1,17 @@
 //! The networks that come with the program, on frames that they never saw.
 
 use crate::scene::{SHAPE, frames};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter, Told};
 use eyebolt_geometry::RayTable;
 use eyebolt_net::models::Model;
 use nalgebra::Isometry3;
-use std::path::{Path, PathBuf};
 
 const PRESETS: [&str; 3] = ["paper-test-p1", "paper-test-p2", "paper-test-p3"];
 
-fn model() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/shackle")
+fn model() -> ModelFiles {
+    ModelFiles::at("shackle".into())
 }
 
 fn estimator(method: PoseMethod) -> PoseEstimator {
@@ -80,9 +80,9 @@ fn a_pose_says_which_pixels_are_of_it() {
 /// A hand is found along its arm by a segmentation that does not know of hands.
 #[test]
 fn a_hand_is_found_along_its_arm() {
-    let read = |name: &str| std::fs::read(model().join("end_effector").join(name)).unwrap();
-    let text = String::from_utf8(read("model.toml")).unwrap();
-    let model = Model::load(&text, &read("weights.safetensors")).unwrap();
+    let model = model();
+    let text = model.description("end_effector").unwrap();
+    let model = Model::load(&text, &model.weights("end_effector").unwrap()).unwrap();
     let mut net = EndEffectorNet::new(model).unwrap();
     let mut found = 0;
     for truth in PRESETS.into_iter().flat_map(frames) {
@@ -116,7 +116,7 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn a_method_without_its_network_is_refused() {
-    let folder = std::env::temp_dir();
-    let found = PoseEstimator::open(&folder, SHAPE.clone(), PoseMethod::Kpm);
+    let model = ModelFiles::at("any-arm".into());
+    let found = PoseEstimator::open(&model, SHAPE.clone(), PoseMethod::Kpm);
     assert!(matches!(found, Err(PoseError::NoNetwork { method: PoseMethod::Kpm })));
 }

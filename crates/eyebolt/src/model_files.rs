@@ -1,0 +1,107 @@
+//! Where the networks of a model are.
+
+use eyebolt_models::{BUILT_IN, BuiltInModel};
+use std::borrow::Cow;
+use std::io::{Error, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Where the networks of a model are: a folder of `eyebolt train`, or within the program.
+#[derive(Clone, Debug)]
+pub enum ModelFiles {
+    /// With a folder for each network, or with the files of one.
+    Folder(PathBuf),
+    /// One that comes with eyebolt.
+    BuiltIn(&'static BuiltInModel),
+}
+
+/// The files of a network.
+const DESCRIPTION: &str = "model.toml";
+const WEIGHTS: &str = "weights.safetensors";
+
+impl ModelFiles {
+    /// The folder at `path` or, where no model is, the one of that name that comes with eyebolt.
+    pub fn at(path: PathBuf) -> Self {
+        let networks = ["", "segmentation", "end_effector", "rotation", "keypoints"];
+        let is_model = networks.iter().any(|name| path.join(name).join(DESCRIPTION).exists());
+        match path.to_str().and_then(BuiltInModel::named) {
+            Some(built_in) if !is_model => Self::BuiltIn(built_in),
+            _ => Self::Folder(path),
+        }
+    }
+
+    /// Names of those that come with eyebolt.
+    pub fn names() -> [&'static str; BUILT_IN.len()] {
+        std::array::from_fn(|index| BUILT_IN[index].name)
+    }
+
+    /// Where a network of that name would be, for errors; without a name, the model.
+    pub fn place(&self, network: &str) -> PathBuf {
+        let model = match self {
+            Self::Folder(folder) => folder,
+            Self::BuiltIn(model) => Path::new(model.name),
+        };
+        if network.is_empty() { model.to_owned() } else { model.join(network) }
+    }
+
+    /// Whether it has a network of that name.
+    pub fn has(&self, network: &str) -> bool {
+        match self {
+            Self::Folder(folder) => folder.join(network).join(DESCRIPTION).exists(),
+            Self::BuiltIn(model) => model.file(network, DESCRIPTION).is_some(),
+        }
+    }
+
+    /// Description of the network of that name, TOML.
+    ///
+    /// # Errors
+    ///
+    /// The file that cannot be read, and why.
+    pub fn description(&self, network: &str) -> Result<String, (PathBuf, Error)> {
+        Ok(String::from_utf8_lossy(&self.file(network, DESCRIPTION)?).into_owned())
+    }
+
+    /// Its weights, safetensors.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::description`].
+    pub fn weights(&self, network: &str) -> Result<Cow<'static, [u8]>, (PathBuf, Error)> {
+        self.file(network, WEIGHTS)
+    }
+
+    fn file(&self, network: &str, name: &str) -> Result<Cow<'static, [u8]>, (PathBuf, Error)> {
+        let path = self.place(network).join(name);
+        let bytes = match self {
+            Self::Folder(_) => std::fs::read(&path).map(Cow::Owned),
+            Self::BuiltIn(model) => {
+                let file = model.file(network, name).map(Cow::Borrowed);
+                file.ok_or_else(|| Error::from(ErrorKind::NotFound))
+            }
+        };
+        bytes.map_err(|source| (path, source))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_the_model_that_comes_with_eyebolt_unless_a_model_lies_there() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(ModelFiles::at("panda".into()), ModelFiles::BuiltIn(_)));
+        assert!(matches!(ModelFiles::at("padna".into()), ModelFiles::Folder(_)));
+        let path = folder.path().join("panda");
+        assert!(matches!(ModelFiles::at(path), ModelFiles::Folder(_)), "only the bare name");
+        for name in ModelFiles::names() {
+            let model = ModelFiles::at(name.into());
+            assert!(model.has("segmentation") && !model.has(""));
+            let text = model.description("segmentation").unwrap();
+            let weights = model.weights("segmentation").unwrap();
+            eyebolt_net::models::Model::load(&text, &weights).unwrap();
+        }
+        let (path, error) = ModelFiles::at("any-arm".into()).weights("rotation").unwrap_err();
+        assert_eq!(path, Path::new("any-arm/rotation/weights.safetensors"));
+        assert_eq!(error.kind(), ErrorKind::NotFound);
+    }
+}
