@@ -132,15 +132,20 @@ fn frames(
         let Some(labelled) = labelled else { continue };
         let true_label: Vec<u8> = labelled.labels.iter().copied().map(class_of).collect();
         let found = recognizer.recognize(&frame.depth, &observations.camera, &[])?;
-        let found_label = found.segmentation.label;
+        let (found_label, answer) = (found.segmentation.label, found.answer);
         scores.labels.add(&true_label, &found_label);
-        for (label, errors) in
-            [(&true_label, &mut scores.by_true_labels), (&found_label, &mut scores.by_found_labels)]
-        {
+        for (label, answer, errors) in [
+            (&true_label, None, &mut scores.by_true_labels),
+            (&found_label, Some(answer), &mut scores.by_found_labels),
+        ] {
             for ((_, method, refines), errors) in METHODS.iter().zip(errors.iter_mut()) {
                 let Some(estimator) = estimators.of(*method, *refines) else { continue };
                 let (depth, camera) = (&frame.depth, &observations.camera);
-                let found = estimator.estimate(depth, camera, label, None)?;
+                let found = match (method, &answer) {
+                    // What the program answers, labels and all.
+                    (PoseMethod::Fused, Some(answer)) => answer.clone(),
+                    _ => estimator.estimate(depth, camera, label, None)?,
+                };
                 let pose = &labelled.camera_from_end_effector;
                 errors.add(estimator.shape(), &frame.joints, found.as_ref(), pose);
             }

@@ -53,8 +53,18 @@ impl PoseAnswer {
 
     /// Other poses that the frame supports as well, likeliest first.
     pub fn alternatives(&self) -> impl Iterator<Item = Transform<Camera, EndEffector>> {
-        let as_good = self.rivals.iter().filter(|rival| rival.is_as_good());
-        as_good.map(|rival| rival.camera_from_end_effector)
+        self.as_good().map(|rival| rival.camera_from_end_effector)
+    }
+
+    fn as_good(&self) -> impl Iterator<Item = &Rival> {
+        self.rivals.iter().filter(|rival| rival.is_as_good())
+    }
+
+    /// The answer and what the frame supports as well, with the numbers of their postures.
+    pub(super) fn possible(&self) -> Vec<(Transform<Camera, EndEffector>, usize)> {
+        let own = (self.camera_from_end_effector, self.opening);
+        let others = self.as_good().map(|rival| (rival.camera_from_end_effector, rival.opening));
+        std::iter::once(own).chain(others).collect()
     }
 }
 
@@ -233,10 +243,18 @@ fn answer(contest: &Contest<'_>, judged: &[Judged]) -> Option<PoseAnswer> {
             let poses: [Transform<Camera, EndEffector>; 2] = [pose(best), camera_from_end_effector];
             let poses = poses.map(|pose| *pose.isometry());
             let apart = contest.shape.apart(&poses[0], &poses[1]);
-            Rival { apart, camera_from_end_effector, comparison }
+            Rival { apart, camera_from_end_effector, opening: other.opening, comparison }
         })
         .collect();
     let (expected_error, refusal) = trust(contest, best, &rivals);
+    tracing::trace!(
+        support = ?best.support,
+        inliers = best.fit.inliers,
+        deviation_m = best.fit.deviation_m,
+        middle = ?contest.observed.middle(),
+        ?refusal,
+        "a pose was judged"
+    );
     Some(PoseAnswer {
         camera_from_end_effector: pose(best),
         source: best.hypothesis.source,

@@ -19,6 +19,8 @@ pub struct Support {
     pub explained: f64,
     /// Of the posed shape's pixels with depth that is not in front of it, the share where the camera saw through it.
     pub seen_through: f64,
+    /// Of the posed shape's pixels with depth, the share that shows the shape: the rest is hidden by something before it, or seen through.
+    pub shown: f64,
     /// Of the posed shape's outline, the share beyond which the surface goes on as if it were not there: where it is
     /// mounted, and all around if it is a part of something larger.
     pub goes_on: f64,
@@ -58,9 +60,11 @@ impl<'a> Judge<'a> {
         let reach = (3.0 * deviation_m) as f32;
         let mut sums = Sums::default();
         for at in 0..self.observed.label.len() {
+            sums.with_depth += usize::from(self.is_drawn_with_depth(at));
             let Some(said) = self.said(at, reach) else { continue };
             sums.drawn += usize::from(said.drawn);
             sums.through += usize::from(said.through);
+            sums.shown += usize::from(said.drawn && said.cost < 1.0);
             sums.add(f64::from(said.cost), self.observed.label[at] == END_EFFECTOR);
         }
         Support { goes_on: self.goes_on(reach), ..sums.support() }
@@ -82,6 +86,10 @@ impl<'a> Judge<'a> {
     /// What was observed.
     pub fn observed(&self) -> &Observed {
         self.observed
+    }
+
+    fn is_drawn_with_depth(&self, at: usize) -> bool {
+        self.observed.image.depth_m[at] > 0.0 && self.raster.depth_m(at).is_some()
     }
 
     /// What a pixel says of the shape as it was drawn last.
@@ -150,6 +158,8 @@ struct Sums {
     explained: usize,
     drawn: usize,
     through: usize,
+    with_depth: usize,
+    shown: usize,
 }
 
 impl Sums {
@@ -168,6 +178,7 @@ impl Sums {
             pixels: self.pixels,
             explained: share(self.explained, self.of_it),
             seen_through: share(self.through, self.drawn),
+            shown: share(self.shown, self.with_depth),
             goes_on: 0.0,
         }
     }

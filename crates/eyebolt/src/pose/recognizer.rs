@@ -78,6 +78,17 @@ impl Recognizer {
         camera: &PinholeCamera,
         postures: &[Posture],
     ) -> Result<Recognized, RecognizeError> {
+        let found = self.recognized(depth, camera, postures)?;
+        tracing::trace!(answered = is_supported(&found), "a frame was looked at");
+        Ok(found)
+    }
+
+    fn recognized(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        postures: &[Posture],
+    ) -> Result<Recognized, RecognizeError> {
         let segmentation = self.segmenter.segment(depth, camera)?;
         let first = self.posed(depth, camera, segmentation, postures)?;
         if is_supported(&first) {
@@ -113,7 +124,7 @@ impl Recognizer {
         Ok(Recognized { segmentation, answer })
     }
 
-    /// With the labels that the pose says, and the pose that these say; as it was if that is not supported.
+    /// With the labels that the pose says, and the pose that these say. What the second look refuses is not relied on.
     fn labelled_again(
         &mut self,
         depth: &DepthImage,
@@ -123,44 +134,44 @@ impl Recognizer {
     ) -> Result<Recognized, RecognizeError> {
         let Some(answer) = &found.answer else { return Ok(found) };
         let openings = self.estimator.openings(postures);
-        let Some(posture) = openings.get(answer.opening) else { return Ok(found) };
-        let label = self.label_at(depth, camera, &found.segmentation, (answer, posture));
+        let label = self.label_at(depth, camera, &found.segmentation, answer, &openings);
         let segmentation = Segmentation { label, ..found.segmentation.clone() };
-        let again = self.posed(depth, camera, segmentation, postures)?;
-        Ok(if is_supported(&again) { again } else { found })
+        self.posed(depth, camera, segmentation, postures)
     }
 
     /// Labels as the posed shape has them: its pixels are the end-effector, and what else was taken for it is what the
-    /// network of whole frames takes it for.
+    /// network of whole frames takes it for. Of poses that cannot be told apart, those of all: the labels of one would speak for it.
     fn label_at(
         &mut self,
         depth: &DepthImage,
         camera: &PinholeCamera,
         found: &Segmentation,
-        (answer, posture): (&PoseAnswer, &Posture),
+        answer: &PoseAnswer,
+        openings: &[Posture],
     ) -> Vec<u8> {
         let mut raster = match self.raster.take() {
             Some((of, raster)) if of == *camera => raster,
             _ => Raster::new(camera),
         };
         let shape = self.estimator.shape();
-        let pose =
-            Transform::<Camera, Base>::from_isometry(*answer.camera_from_end_effector.isometry());
-        let meshes = posture.meshes(&shape.model, &pose);
-        raster.draw(camera, &meshes);
-        let beneath = |whole: u8| if whole == BACKGROUND { BACKGROUND } else { ARM };
         let reach_m = (ON_SHAPE * shape.extent_m()) as f32;
-        let labels = found.label.iter().zip(&found.whole).enumerate();
-        let label = labels.map(|(at, (label, whole))| {
-            let (seen, drawn) = (depth.depth_m()[at], raster.depth_m(at));
-            let on_it = seen > 0.0 && drawn.is_some_and(|drawn| (seen - drawn).abs() < reach_m);
-            match *label {
-                _ if on_it => END_EFFECTOR,
-                END_EFFECTOR => beneath(*whole),
-                other => other,
+        let beneath = |(label, whole): (&u8, &u8)| match *label {
+            END_EFFECTOR if *whole == BACKGROUND => BACKGROUND,
+            END_EFFECTOR => ARM,
+            other => other,
+        };
+        let mut label: Vec<u8> = found.label.iter().zip(&found.whole).map(beneath).collect();
+        for (pose, opening) in answer.possible() {
+            let Some(posture) = openings.get(opening) else { continue };
+            let pose = Transform::<Camera, Base>::from_isometry(*pose.isometry());
+            raster.draw(camera, &posture.meshes(&shape.model, &pose));
+            for at in raster.pixels() {
+                let (seen, drawn) = (depth.depth_m()[at], raster.depth_m(at));
+                if seen > 0.0 && drawn.is_some_and(|drawn| (seen - drawn).abs() < reach_m) {
+                    label[at] = END_EFFECTOR;
+                }
             }
-        });
-        let label = label.collect();
+        }
         self.raster = Some((camera.clone(), raster));
         label
     }

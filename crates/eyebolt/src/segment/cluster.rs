@@ -13,6 +13,10 @@ pub const ARM_LINKAGE_M: f32 = 0.12;
 /// before another.
 const BESIDE: usize = 100;
 
+/// Parts of an arm that are beside each other in the image are not farther apart than this in depth, metres: one part hides
+/// another that is at most an arm's length behind it, and a room is mostly farther away.
+const APART_M: f32 = 1.0;
+
 type Cell = [i32; 3];
 
 /// Leaves their labels to the largest cluster of the points whose label is `of`, by its area, and gives the
@@ -64,7 +68,8 @@ pub fn clusters_by_area(
         *areas.entry(*cell).or_default() += f64::from(depth.depth_m()[*at]).powi(2);
     }
     let mut clusters = clusters(&areas);
-    join_neighbours(&mut clusters, &points, depth.width() as usize);
+    let apart = (APART_M / (0.5 * linkage_m)) as i32;
+    join_neighbours(&mut clusters, &points, depth.width() as usize, apart);
     let mut found: BTreeMap<usize, Cluster> = BTreeMap::new();
     areas.iter().for_each(|(cell, area)| found.entry(clusters[cell]).or_default().area += area);
     for (at, cell) in &points {
@@ -100,8 +105,14 @@ fn clusters(cells: &BTreeMap<Cell, f64>) -> BTreeMap<Cell, usize> {
     of
 }
 
-/// Makes one of clusters that are beside each other in the image. `points` are in the order of their pixels.
-fn join_neighbours(clusters: &mut BTreeMap<Cell, usize>, points: &[(usize, Cell)], width: usize) {
+/// Makes one of clusters that are beside each other in the image, and at most so many cells apart in depth. `points` are in
+/// the order of their pixels.
+fn join_neighbours(
+    clusters: &mut BTreeMap<Cell, usize>,
+    points: &[(usize, Cell)],
+    width: usize,
+    apart: i32,
+) {
     let beside_px = width / BESIDE + 1;
     let mut into: Vec<usize> = (0..clusters.len()).collect();
     let root = |into: &[usize], mut of: usize| {
@@ -110,19 +121,21 @@ fn join_neighbours(clusters: &mut BTreeMap<Cell, usize>, points: &[(usize, Cell)
         }
         of
     };
-    // Of each column, the last pixel and its cluster; and of the row.
-    let mut above: Vec<Option<(usize, usize)>> = vec![None; width];
-    let mut before: Option<(usize, usize)> = None;
+    // Of each column, the last pixel, its cluster and how far away it is; and of the row.
+    let mut above: Vec<Option<(usize, usize, i32)>> = vec![None; width];
+    let mut before: Option<(usize, usize, i32)> = None;
     for (at, cell) in points {
-        let (u, v, cluster) = (at % width, at / width, clusters[cell]);
-        let left = before.filter(|(other, _)| other / width == v && at - other <= beside_px);
-        let up = above[u].filter(|(row, _)| v - row <= beside_px);
-        for (_, other) in left.into_iter().chain(up) {
-            let (a, b) = (root(&into, cluster), root(&into, other));
-            into[a.max(b)] = a.min(b);
+        let (u, v, cluster, far) = (at % width, at / width, clusters[cell], cell[2]);
+        let left = before.filter(|(other, ..)| other / width == v && at - other <= beside_px);
+        let up = above[u].filter(|(row, ..)| v - row <= beside_px);
+        for (_, other, there) in left.into_iter().chain(up) {
+            if (far - there).abs() <= apart {
+                let (a, b) = (root(&into, cluster), root(&into, other));
+                into[a.max(b)] = a.min(b);
+            }
         }
-        before = Some((*at, cluster));
-        above[u] = Some((v, cluster));
+        before = Some((*at, cluster, far));
+        above[u] = Some((v, cluster, far));
     }
     clusters.values_mut().for_each(|cluster| *cluster = root(&into, *cluster));
 }
@@ -160,12 +173,17 @@ mod tests {
             assert_eq!(*found, wanted, "{}", at % 100);
         }
         // The third is farther away, and touches the second in the image.
-        let depth_m = (0..4000).map(|at| if at % 100 < 52 { 1.0 } else { 2.0 }).collect();
+        let depth_m = (0..4000).map(|at| if at % 100 < 52 { 1.0 } else { 1.6 }).collect();
         let depth = DepthImage::new(100, 40, depth_m).unwrap();
         let patch = |at: usize| u8::from((33..70).contains(&(at % 100)));
         let mut label: Vec<u8> = (0..4000).map(patch).collect();
         keep_largest_cluster(&mut label, &depth, &rays, 0.06, |label| label == 1, 0);
         assert!((0..4000).all(|at| label[at] == patch(at)));
+        // So far away that it is a wall behind: then it is another thing, of a larger area.
+        let depth_m = (0..4000).map(|at| if at % 100 < 52 { 1.0 } else { 4.0 }).collect();
+        let depth = DepthImage::new(100, 40, depth_m).unwrap();
+        keep_largest_cluster(&mut label, &depth, &rays, 0.06, |label| label == 1, 0);
+        assert!((0..4000).all(|at| label[at] == u8::from((52..70).contains(&(at % 100)))));
         keep_largest_cluster(&mut [0; 4000], &depth, &rays, 0.06, |label| label == 2, 1);
     }
 }

@@ -157,6 +157,7 @@ impl EndEffectorNet {
         let area = |(at, sure): &(usize, f64)| sure * f64::from(image.depth_m[*at]).powi(2);
         let area = sure.iter().map(area).sum::<f64>() * (image.step * image.step) as f64;
         let middle = middle(sure.iter().map(|(at, _)| image.point(*at))).unwrap_or(place);
+        tracing::trace!(?middle, area, pixels = sure.len(), "may be the end-effector");
         Ok(Some(Found { image, part, window, logits, area, middle }))
     }
 }

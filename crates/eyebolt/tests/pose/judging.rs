@@ -4,7 +4,8 @@ use crate::scene::{SHAPE, Truth, frames};
 use eyebolt::pose::{
     Comparison, Judge, Observed, PoseHypothesis, Source, half_turns, with_translation,
 };
-use eyebolt_geometry::Transform;
+use eyebolt::segment::{BACKGROUND, END_EFFECTOR};
+use eyebolt_geometry::{DepthImage, Transform};
 use nalgebra::Vector3;
 
 fn observed(truth: &Truth) -> Option<Observed> {
@@ -38,6 +39,39 @@ fn the_true_pose_is_supported_best() {
         }
     }
     assert!(seen >= 5, "{seen}");
+}
+
+/// What stands before a shape hides it, and says nothing against its pose.
+#[test]
+fn what_is_hidden_does_not_show() {
+    let mut seen = 0;
+    for mut truth in frames("paper-test-p1") {
+        let of_hand = |truth: &Truth| {
+            let label = &truth.label;
+            (0..label.len()).filter(|at| label[*at] == END_EFFECTOR).collect::<Vec<_>>()
+        };
+        let hand = of_hand(&truth);
+        let posture = SHAPE.posture(&truth.joints);
+        let support = |truth: &Truth| {
+            let observed = observed(truth)?;
+            Some(Judge::new(&SHAPE, &observed).support(&posture, &truth.pose, 0.004))
+        };
+        let Some(whole) = support(&truth) else { continue };
+        // A board before the lower half, nearer by 20 cm.
+        let mut depth_m = truth.ideal.depth_m().to_vec();
+        for at in &hand[hand.len() / 2..] {
+            depth_m[*at] -= 0.2;
+            truth.label[*at] = BACKGROUND;
+        }
+        truth.ideal =
+            DepthImage::new(truth.camera.width(), truth.camera.height(), depth_m).unwrap();
+        let Some(half) = support(&truth) else { continue };
+        seen += 1;
+        assert!(whole.shown > 0.8, "{whole:?}");
+        assert!((half.shown - 0.5 * whole.shown).abs() < 0.1, "{whole:?} {half:?}");
+        assert!(half.cost < whole.cost + 0.1 && half.seen_through < 0.1, "{whole:?} {half:?}");
+    }
+    assert!(seen >= 4, "{seen}");
 }
 
 /// A frame speaks for the true pose against others, as much as it speaks against them for it.
