@@ -90,17 +90,26 @@ impl Recognizer {
         postures: &[Posture],
     ) -> Result<Recognized, RecognizeError> {
         let segmentation = self.segmenter.segment(depth, camera)?;
-        let first = self.posed(depth, camera, segmentation, postures)?;
+        let mut first = self.posed(depth, camera, segmentation, postures)?;
         if is_supported(&first) {
-            return self.labelled_again(depth, camera, first, postures);
+            first = self.labelled_again(depth, camera, first, postures)?;
+        }
+        if is_answered(&first) {
+            return Ok(first);
         }
         for segmentation in
             self.segmenter.alternatives(depth, camera, &first.segmentation, ELSEWHERE)?
         {
             let other = self.posed(depth, camera, segmentation, postures)?;
-            if other.answer.as_ref().is_some_and(|answer| answer.refusal.is_none()) {
-                return self.labelled_again(depth, camera, other, postures);
+            if is_answered(&other) {
+                let again = self.labelled_again(depth, camera, other, postures)?;
+                if is_answered(&again) {
+                    return Ok(again);
+                }
             }
+        }
+        if is_supported(&first) {
+            return Ok(first);
         }
         let label = &first.segmentation.label;
         let answer = self.estimator.estimate_anyhow(depth, camera, label, postures);
@@ -175,6 +184,11 @@ impl Recognizer {
         self.raster = Some((camera.clone(), raster));
         label
     }
+}
+
+/// Whether the shape explains what was seen, and in one way alone.
+fn is_answered(found: &Recognized) -> bool {
+    found.answer.as_ref().is_some_and(|answer| answer.refusal.is_none())
 }
 
 /// Whether the shape explains what was seen, even if it is not known which way it is turned.
