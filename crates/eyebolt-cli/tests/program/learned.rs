@@ -5,7 +5,7 @@ use crate::program::{CACHE, Ended, RECORDING, calibrate, eyebolt};
 use crate::simulate::SIMULATED;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// How far a calibration of the simulated recording is off, millimetres and degrees.
 fn off(calibration: &Path) -> (f64, f64) {

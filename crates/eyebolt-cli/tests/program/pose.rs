@@ -7,7 +7,7 @@ use eyebolt_recording::SessionWriter;
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 fn pose(more: &[&str]) -> Ended {

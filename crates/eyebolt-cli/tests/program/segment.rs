@@ -5,7 +5,7 @@ use crate::program::{CACHE, Ended, eyebolt};
 use crate::simulate::SIMULATED;
 use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const FRAMES: usize = 15;
 
