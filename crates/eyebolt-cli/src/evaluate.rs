@@ -18,8 +18,8 @@ pub struct Arguments {
     /// recordings
     #[arg(required = true, value_name = "RECORDING CALIBRATION | RECORDING")]
     paths: Vec<PathBuf>,
-    /// Model, its folder or one that comes with the program: prints the tables of the paper for labels, poses and calibrations that its networks make of
-    /// the recordings. Given several times, also how each does on each recording
+    /// Model, its folder or one that comes with the program: prints the tables of the paper for labels, poses and
+    /// calibrations that its networks make of the recordings. Given several times, also how each does on each recording
     #[arg(long, value_name = "[NAME=]MODEL")]
     model: Vec<String>,
     /// With --model: what to take for the truth of recordings that have none, one for each of them in their order

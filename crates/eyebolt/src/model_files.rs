@@ -14,9 +14,10 @@ pub enum ModelFiles {
     BuiltIn(&'static BuiltInModel),
 }
 
-/// The files of a network.
-const DESCRIPTION: &str = "model.toml";
-const WEIGHTS: &str = "weights.safetensors";
+/// The description of a network, in its folder.
+pub const DESCRIPTION: &str = "model.toml";
+/// Its weights.
+pub const WEIGHTS: &str = "weights.safetensors";
 
 impl ModelFiles {
     /// The folder at `path` or, where no model is, the one of that name that comes with eyebolt.

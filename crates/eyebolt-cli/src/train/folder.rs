@@ -3,7 +3,7 @@
 use crate::front::Front;
 use crate::output;
 use anyhow::{Context, Result, anyhow};
-use eyebolt::model_files::ModelFiles;
+use eyebolt::model_files::{DESCRIPTION, ModelFiles, WEIGHTS};
 use eyebolt::train::{Keep, Report, TrainError, events};
 use eyebolt_net::models::Model;
 use std::path::{Path, PathBuf};
@@ -17,8 +17,6 @@ pub struct ModelFolder<'a> {
     reports: Vec<Report>,
 }
 
-const DESCRIPTION: &str = "model.toml";
-const WEIGHTS: &str = "weights.safetensors";
 const CHECKPOINT: &str = "checkpoint";
 const LOG: &str = "log.jsonl";
 const EVENTS: &str = "events.out.tfevents.eyebolt";

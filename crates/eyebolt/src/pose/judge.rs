@@ -58,9 +58,10 @@ impl<'a> Judge<'a> {
     ) -> Support {
         self.draw(posture, pose);
         let reach = (3.0 * deviation_m) as f32;
-        let mut sums = Sums::default();
+        let with_depth = |at: &usize| self.observed.image.depth_m[*at] > 0.0;
+        let with_depth = self.raster.pixels().filter(with_depth).count();
+        let mut sums = Sums { with_depth, ..Sums::default() };
         for at in 0..self.observed.label.len() {
-            sums.with_depth += usize::from(self.is_drawn_with_depth(at));
             let Some(said) = self.said(at, reach) else { continue };
             sums.drawn += usize::from(said.drawn);
             sums.through += usize::from(said.through);
@@ -86,10 +87,6 @@ impl<'a> Judge<'a> {
     /// What was observed.
     pub fn observed(&self) -> &Observed {
         self.observed
-    }
-
-    fn is_drawn_with_depth(&self, at: usize) -> bool {
-        self.observed.image.depth_m[at] > 0.0 && self.raster.depth_m(at).is_some()
     }
 
     /// What a pixel says of the shape as it was drawn last.

@@ -78,17 +78,6 @@ impl Recognizer {
         camera: &PinholeCamera,
         postures: &[Posture],
     ) -> Result<Recognized, RecognizeError> {
-        let found = self.recognized(depth, camera, postures)?;
-        tracing::trace!(answered = is_supported(&found), "a frame was looked at");
-        Ok(found)
-    }
-
-    fn recognized(
-        &mut self,
-        depth: &DepthImage,
-        camera: &PinholeCamera,
-        postures: &[Posture],
-    ) -> Result<Recognized, RecognizeError> {
         let segmentation = self.segmenter.segment(depth, camera)?;
         let mut first = self.posed(depth, camera, segmentation, postures)?;
         if is_supported(&first) {
