@@ -46,20 +46,20 @@ const RECENT: usize = 12;
 pub struct Beliefs {
     /// If nothing moved: how well what is stored is known.
     pub unmoved: Belief,
-    /// If something moved, for each thing that may have. A view that is spoilt looks like any of them.
+    /// If something moved, for each thing that may have, as far as it may have. A view that is spoilt looks like any of them.
     pub suspects: Vec<Belief>,
+    /// How many of them, the first ones, are the same thing moved by more or by less.
+    pub alike: usize,
 }
 
 impl Beliefs {
-    /// The suspects, each with the logarithm of how likely it is beforehand: the first as all others together.
+    /// The suspects, each with the logarithm of how likely it is beforehand: those that are alike as all others together.
     fn weighed(&self) -> impl Iterator<Item = (f64, &Belief)> {
-        let others = self.suspects.len().saturating_sub(1);
+        let others = self.suspects.len().saturating_sub(self.alike);
+        let share = if others == 0 { 1.0 } else { 0.5 };
         self.suspects.iter().enumerate().map(move |(place, belief)| {
-            let weight: f64 = match (place, others) {
-                (_, 0) => 1.0,
-                (0, _) => 0.5,
-                _ => 0.5 / others as f64,
-            };
+            let of = if place < self.alike { self.alike } else { others };
+            let weight: f64 = share / of as f64;
             (weight.ln(), belief)
         })
     }
@@ -70,11 +70,20 @@ impl Beliefs {
 pub(super) struct Moment {
     /// The first view after it, counted from 0 among those that count.
     pub since: usize,
+    /// How many suspects, the first ones, are the same thing.
+    pub alike: usize,
     /// Of each suspect: logarithm of its weight times the likelihood ratio of the views after, and where it has everything.
     pub suspects: Vec<(f64, Belief)>,
 }
 
 impl Moment {
+    /// The likeliest of the first suspects, which are alike, and its number.
+    pub fn first(&self) -> Option<(usize, &Belief)> {
+        let alike = self.suspects.iter().take(self.alike).enumerate();
+        let likeliest = alike.max_by(|(_, (a, _)), (_, (b, _))| a.total_cmp(b));
+        likeliest.map(|(number, (_, belief))| (number, belief))
+    }
+
     /// Logarithm of the likelihood ratio of all suspects together.
     fn log_ratio(&self) -> f64 {
         self.suspects.iter().fold(f64::NEG_INFINITY, |sum, (log, _)| log_sum(sum, *log))
@@ -91,7 +100,7 @@ pub struct Detector {
 }
 
 impl Detector {
-    /// A test of whether all is still as stored. The first suspect is as likely beforehand as all others together.
+    /// A test of whether all is still as stored.
     pub fn new(beliefs: Beliefs, rate: &Rate) -> Self {
         Self { beliefs, moments: Vec::new(), counted: 0, log_limit: rate.log_views_to_alarm() }
     }
@@ -132,7 +141,8 @@ impl Detector {
             }
         }
         let suspects = self.beliefs.weighed().map(|(log, belief)| (log, belief.clone())).collect();
-        self.moments.push(Moment { since: self.counted, suspects });
+        let alike = self.beliefs.alike;
+        self.moments.push(Moment { since: self.counted, alike, suspects });
         self.counted += 1;
     }
 

@@ -37,8 +37,11 @@ pub struct Moved {
     pub joint_deg: Option<f64>,
 }
 
-/// How far the camera or the base may have moved, as standard deviations along each axis, metres and radians.
-pub(super) const FAR: [f64; 6] = [0.03; 6];
+/// How far the camera or the base may have moved, as standard deviations along each axis, metres and radians: hit or hardly
+/// touched. A mixture: whoever expects a large move is surprised by a small one.
+pub(super) const BY: [f64; 2] = [FAR, 0.01];
+/// The larger of them.
+pub(super) const FAR: f64 = 0.03;
 /// How far the zero of a joint may be off that slipped, as a standard deviation, radians.
 const SLIPPED_RAD: f64 = 0.03;
 /// Standard deviation of how far joints are off that did not slip: what calibrations know of zeros, radians.
@@ -51,32 +54,42 @@ fn joints(arm: &ArmModel) -> impl Iterator<Item = (usize, &str)> {
     joints.filter(|(_, joint)| !joint.defines_base).map(|(place, j)| (6 + place, j.name.as_str()))
 }
 
-/// What is believed before anything is seen: the first suspect is the camera or the base.
+/// What is believed before anything is seen: the first suspects are the camera or the base.
 pub(super) fn beliefs(arm: &ArmModel, known: &Known) -> Beliefs {
     let mut unmoved = Belief::about_zero(&[KNOWN_RAD; SHIFTS]);
     let of_pose = DMatrix::from_fn(6, 6, |i, j| known.covariance[(i, j)]);
     unmoved.covariance.view_mut((0, 0), (6, 6)).copy_from(&of_pose);
-    let mut camera = unmoved.clone();
-    FAR.iter().enumerate().for_each(|(i, far)| camera.covariance[(i, i)] += far * far);
+    let camera = BY.map(|by| {
+        let mut camera = unmoved.clone();
+        (0..6).for_each(|i| camera.covariance[(i, i)] += by * by);
+        camera
+    });
     let slipped = |(place, _): (usize, &str)| {
         let mut belief = unmoved.clone();
         belief.covariance[(place, place)] += SLIPPED_RAD.powi(2);
         belief
     };
     let slipped: Vec<Belief> = joints(arm).map(slipped).collect();
-    Beliefs { suspects: std::iter::once(camera).chain(slipped).collect(), unmoved }
+    Beliefs { suspects: camera.into_iter().chain(slipped).collect(), alike: BY.len(), unmoved }
 }
 
 /// The suspects since `moment`, likeliest first.
 pub(super) fn suspects(arm: &ArmModel, moment: &Moment) -> Vec<Moved> {
     let best = moment.suspects.iter().map(|(log, _)| *log).fold(f64::NEG_INFINITY, f64::max);
     let sum: f64 = moment.suspects.iter().map(|(log, _)| (log - best).exp()).sum();
-    let names = std::iter::once(None).chain(joints(arm).map(Some));
-    let told = names.zip(&moment.suspects).map(|(joint, (log, belief))| Moved {
-        what: joint.map_or(Suspect::CameraOrBase, |(_, name)| Suspect::JointZero(name.to_owned())),
-        probability: (log - best).exp() / sum,
-        joint_deg: joint.map(|(place, _)| belief.mean[place].to_degrees()),
+    let share = |(log, _): &(f64, Belief)| (log - best).exp() / sum;
+    let (camera, slipped) = moment.suspects.split_at(moment.alike.min(moment.suspects.len()));
+    let camera = Moved {
+        what: Suspect::CameraOrBase,
+        probability: camera.iter().map(share).sum(),
+        joint_deg: None,
+    };
+    let slipped = joints(arm).zip(slipped).map(|((place, name), suspect)| Moved {
+        what: Suspect::JointZero(name.to_owned()),
+        probability: share(suspect),
+        joint_deg: Some(suspect.1.mean[place].to_degrees()),
     });
+    let told = std::iter::once(camera).chain(slipped);
     let mut told: Vec<Moved> = told.collect();
     told.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     told

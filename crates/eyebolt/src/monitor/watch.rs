@@ -4,7 +4,7 @@ use super::belief::{Belief, Quadratic};
 use super::counted::CountedViews;
 use super::detector::{Detector, Moment, Rate};
 use super::known::{Known, both};
-use super::moved::{FAR, KNOWN_RAD, Moved, Suspect, beliefs, suspects};
+use super::moved::{BY, FAR, KNOWN_RAD, Moved, Suspect, beliefs, suspects};
 use super::report::{Drift, ViewReport, WhyNot};
 use super::scene::{Scene, Witness};
 use crate::answer::Pose;
@@ -134,7 +134,7 @@ impl<'a> Monitor<'a> {
             self.detector.count_absent();
             return None;
         }
-        if Belief::about_zero(&FAR).gain(&seen.pose) < LEAST_GAIN {
+        if Belief::about_zero(&[FAR; 6]).gain(&seen.pose) < LEAST_GAIN {
             return Some(WhyNot::TellsNothing);
         }
         let links = posture.base_from_link();
@@ -193,7 +193,7 @@ impl<'a> Monitor<'a> {
         let views = self.counted() - moment.since;
         let pose = &self.known.start.camera_from_base;
         let shift = shift(moment)?;
-        let (_, belief) = moment.suspects.first()?;
+        let (_, belief) = moment.first()?;
         let of_views = Matrix6::from_fn(|i, j| belief.covariance[(i, j)]);
         let covariance = of_views + self.known.covariance;
         let reach = pose.direction(&self.known.workspace_in_base.coords);
@@ -252,8 +252,8 @@ fn evidence(
 /// Where the views since `moment` have the pose, against the stored one, if camera or base moved; `None` where they hardly
 /// tell.
 fn shift(moment: &Moment) -> Option<Vector6<f64>> {
-    let (_, belief) = moment.suspects.first()?;
-    let is_told = (0..6).all(|i| belief.covariance[(i, i)] < (TOLD * FAR[i]).powi(2));
+    let (number, belief) = moment.first()?;
+    let is_told = (0..6).all(|i| belief.covariance[(i, i)] < (TOLD * BY[number]).powi(2));
     is_told.then(|| Vector6::from_fn(|i, _| belief.mean[i]))
 }
 
@@ -286,7 +286,7 @@ impl Seen {
 
     /// How far it is from what is known, in squared standard deviations of both, for each of six parts.
     fn surprise(&self, known: &Known) -> f64 {
-        let Some(after) = Belief::about_zero(&FAR).after(&self.pose) else { return f64::INFINITY };
+        let Some(after) = Belief::about_zero(&[FAR; 6]).after(&self.pose) else { return f64::INFINITY };
         let known = DMatrix::from_fn(6, 6, |i, j| known.covariance[(i, j)]);
         let solved = (after.covariance + known).cholesky().map(|c| c.solve(&after.mean));
         solved.map_or(f64::INFINITY, |solved| after.mean.dot(&solved) / 6.0)

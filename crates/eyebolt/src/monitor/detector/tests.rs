@@ -22,12 +22,12 @@ fn drawn(deviations: &[f64; 6], random: &mut Random) -> DVector<f64> {
 }
 
 fn detector_at(rate: &Rate) -> Detector {
-    let far = Belief::about_zero(&FAR);
+    let [far, near] = [1.0, 0.3].map(|by| Belief::about_zero(&FAR.map(|far| by * far)));
     // Whatever moved, or along the first axis alone.
     let along =
         Belief::about_zero(&[FAR[0], STORED[1], STORED[2], STORED[3], STORED[4], STORED[5]]);
     let unmoved = Belief::about_zero(&STORED);
-    let beliefs = Beliefs { unmoved, suspects: vec![far, along] };
+    let beliefs = Beliefs { unmoved, suspects: vec![far, near, along], alike: 2 };
     Detector::new(beliefs, rate)
 }
 
@@ -88,7 +88,7 @@ fn what_moved_is_found_in_three_views_and_its_drift_within_its_uncertainty() {
         });
         late += usize::from(!found);
         let moment = detector.moment().unwrap();
-        let (_, belief) = &moment.suspects[0];
+        let (_, belief) = moment.first().unwrap();
         let off = &belief.mean - &moved;
         let inverse = belief.covariance.clone().try_inverse().unwrap();
         // Chi-square of six, exceeded once in a thousand.
@@ -111,7 +111,7 @@ fn views_that_say_nothing_change_nothing_and_one_view_is_no_alarm() {
     assert!((blind.log_evidence() - log_sum(before, -blind.log_limit)).abs() < 1e-9);
     let along = |detector: &Detector| {
         let moment = detector.moment().unwrap();
-        moment.suspects[1].0 - moment.suspects[0].0
+        moment.suspects[2].0 - log_sum(moment.suspects[0].0, moment.suspects[1].0)
     };
     let mut slid = quiet.clone();
     let shift = DVector::from_row_slice(&[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]);
