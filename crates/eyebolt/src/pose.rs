@@ -18,6 +18,7 @@ mod proposer;
 mod recognizer;
 mod rotation_net;
 mod shape;
+mod smooth;
 mod trust;
 mod view;
 
@@ -36,5 +37,6 @@ pub use proposer::{Hypothesis, PoseProposer};
 pub use recognizer::{RecognizeError, Recognized, Recognizer};
 pub use rotation_net::{Decoder, PoseNetError, QUATERNION, RotationMode, RotationNet, view_batch};
 pub use shape::EndEffectorShape;
+pub use smooth::SmoothSurface;
 pub use trust::{ExpectedError, Refusal, Rival};
 pub use view::{CELLS, EndEffectorView, VIEW_FEATURES, view_edge_m};

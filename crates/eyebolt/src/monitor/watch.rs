@@ -286,7 +286,9 @@ impl Seen {
 
     /// How far it is from what is known, in squared standard deviations of both, for each of six parts.
     fn surprise(&self, known: &Known) -> f64 {
-        let Some(after) = Belief::about_zero(&[FAR; 6]).after(&self.pose) else { return f64::INFINITY };
+        let Some(after) = Belief::about_zero(&[FAR; 6]).after(&self.pose) else {
+            return f64::INFINITY;
+        };
         let known = DMatrix::from_fn(6, 6, |i, j| known.covariance[(i, j)]);
         let solved = (after.covariance + known).cholesky().map(|c| c.solve(&after.mean));
         solved.map_or(f64::INFINITY, |solved| after.mean.dot(&solved) / 6.0)

@@ -6,6 +6,7 @@ use super::judge::Judge;
 use super::judged::{Judged, keep_distinct, refined};
 use super::observed::Observed;
 use super::shape::EndEffectorShape;
+use super::smooth::SmoothSurface;
 use eyebolt_registration::{IcpOptions, Posture};
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -93,6 +94,16 @@ impl Contest<'_> {
             Comparison::between(&mut judge, first, second, deviation_m)
         };
         others.iter().map(between).collect()
+    }
+
+    /// By how much the frame speaks for the best of `judged` against a smooth surface that is no end-effector.
+    pub fn against_smooth(&self, best: &Judged) -> Option<Comparison> {
+        let smooth = SmoothSurface::fit(self.observed)?;
+        let deviation_m = best.fit.deviation_m.min(smooth.deviation_m);
+        let deviation_m = MEASURE * deviation_m.max(0.5 * Contest::LAST.least_scale_m);
+        let mut judge = Judge::new(self.shape, self.observed);
+        let pose = (&self.openings[best.opening], &best.fit.camera_from_base);
+        Some(Comparison::with_smooth(&mut judge, pose, &smooth, deviation_m))
     }
 
     /// Judges all by the deviation of the one that fits best.

@@ -1,5 +1,6 @@
 //! The pose of an end-effector from one frame.
 
+use super::comparison::Comparison;
 use super::contest::Contest;
 use super::hypotheses::{PoseHypothesis, Source, everywhere, half_turns, with_translation};
 use super::judge::{Judge, Support};
@@ -39,6 +40,8 @@ pub struct PoseAnswer {
     pub opening: usize,
     /// What the frame says of it.
     pub support: Support,
+    /// What it says of it against a smooth surface that is no end-effector; `None` of a pose that is not refined, or of too few pixels.
+    pub against_smooth: Option<Comparison>,
     /// Other poses that were refined and held against it, likeliest first.
     pub rivals: Vec<Rival>,
     /// Why it should not be used, if so.
@@ -49,6 +52,11 @@ impl PoseAnswer {
     /// Whether it may be right, even if it is not known which of several poses is.
     pub fn may_be_right(&self) -> bool {
         matches!(self.refusal, None | Some(Refusal::Ambiguous { .. }))
+    }
+
+    /// By how many standard deviations the frame is for it and against a smooth surface; none where it does not tell.
+    pub(super) fn significance(&self) -> f64 {
+        self.against_smooth.as_ref().map_or(0.0, Comparison::significance)
     }
 
     /// Other poses that the frame supports as well, likeliest first.
@@ -228,6 +236,7 @@ fn as_it_is(contest: &Contest<'_>, first: &PoseHypothesis) -> PoseAnswer {
         expected_error: None,
         opening: 0,
         support: judge.support(&contest.openings[0], &first.pose, 3.0 * COARSE_M),
+        against_smooth: None,
         rivals: Vec::new(),
         refusal: None,
     }
@@ -246,12 +255,16 @@ fn answer(contest: &Contest<'_>, judged: &[Judged]) -> Option<PoseAnswer> {
             Rival { apart, camera_from_end_effector, opening: other.opening, comparison }
         })
         .collect();
-    let (expected_error, refusal) = trust(contest, best, &rivals);
+    let against_smooth = contest.against_smooth(best);
+    let (expected_error, refusal) = trust(contest, best, &rivals, against_smooth);
     tracing::trace!(
         support = ?best.support,
         inliers = best.fit.inliers,
         deviation_m = best.fit.deviation_m,
         middle = ?contest.observed.middle(),
+        translation_m = ?best.fit.camera_from_base.translation_m(),
+        rotation_xyzw = ?best.fit.camera_from_base.rotation_xyzw(),
+        ?against_smooth,
         ?refusal,
         "a pose was judged"
     );
@@ -261,6 +274,7 @@ fn answer(contest: &Contest<'_>, judged: &[Judged]) -> Option<PoseAnswer> {
         opening: best.opening,
         expected_error,
         support: best.support,
+        against_smooth,
         rivals,
         refusal,
     })

@@ -84,6 +84,11 @@ impl<'a> Judge<'a> {
         pixels.map(|at| self.said(at, reach).map(|said| said.cost)).collect()
     }
 
+    /// Depth of the shape as it was drawn last, at a pixel where it is, metres.
+    pub fn drawn_m(&self, at: usize) -> Option<f32> {
+        self.raster.depth_m(at)
+    }
+
     /// What was observed.
     pub fn observed(&self) -> &Observed {
         self.observed

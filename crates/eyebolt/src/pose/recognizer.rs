@@ -2,6 +2,7 @@
 
 use super::estimator::{PoseAnswer, PoseEstimator};
 use super::shape::EndEffectorShape;
+use super::trust::CLEARLY;
 use super::{PoseError, PoseMethod};
 use crate::model_files::ModelFiles;
 use crate::segment::{ARM, BACKGROUND, END_EFFECTOR, SegmentError, Segmentation, Segmenter};
@@ -83,19 +84,26 @@ impl Recognizer {
         if is_supported(&first) {
             first = self.labelled_again(depth, camera, first, postures)?;
         }
-        if is_answered(&first) {
+        if is_answered(&first) && significance(&first) > CLEARLY {
             return Ok(first);
         }
+        let mut found: Vec<Recognized> = Vec::new();
         for segmentation in
             self.segmenter.alternatives(depth, camera, &first.segmentation, ELSEWHERE)?
         {
             let other = self.posed(depth, camera, segmentation, postures)?;
             if is_answered(&other) {
                 let again = self.labelled_again(depth, camera, other, postures)?;
-                if is_answered(&again) {
-                    return Ok(again);
-                }
+                found.extend(Some(again).filter(is_answered));
             }
+        }
+        let best = found.into_iter().max_by(|a, b| significance(a).total_cmp(&significance(b)));
+        if is_answered(&first) {
+            let better = best.filter(|best| significance(best) > CLEARLY);
+            return Ok(better.unwrap_or(first));
+        }
+        if let Some(best) = best {
+            return Ok(best);
         }
         if is_supported(&first) {
             return Ok(first);
@@ -178,6 +186,11 @@ impl Recognizer {
 /// Whether the shape explains what was seen, and in one way alone.
 fn is_answered(found: &Recognized) -> bool {
     found.answer.as_ref().is_some_and(|answer| answer.refusal.is_none())
+}
+
+/// How clearly the frame says that it is the shape and no smooth surface.
+fn significance(found: &Recognized) -> f64 {
+    found.answer.as_ref().map_or(0.0, PoseAnswer::significance)
 }
 
 /// Whether the shape explains what was seen, even if it is not known which way it is turned.

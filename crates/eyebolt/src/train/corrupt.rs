@@ -6,7 +6,7 @@
 //! | fault | figures |
 //! |---|---|
 //! | depth's scale | 1 % (real cameras are 1 to 2 % long or short) |
-//! | smooth error, growing with the square of depth | 0.5 to 15 mm at 1 m, correlated over 1.5 to 15 pixels; two octaves (Handa et al., *A benchmark for RGB-D visual odometry*, ICRA 2014, shift pixels and add noise of disparity; Mahler et al., *Dex-Net 2.0*, RSS 2017, add correlated Gaussian noise made at a fraction of the resolution) |
+//! | smooth error, growing with the square of depth | 0.3 to 15 mm at 1 m, correlated over 0.7 to 15 pixels; two octaves (Handa et al., *A benchmark for RGB-D visual odometry*, ICRA 2014, shift pixels and add noise of disparity; Mahler et al., *Dex-Net 2.0*, RSS 2017, add correlated Gaussian noise made at a fraction of the resolution) |
 //! | steps of disparity | up to 20 mm at 1 m |
 //! | shadows beside near things | of a baseline of 3 to 12 cm, on either side |
 //! | edges eaten, fattened, smeared | up to a pixel of the thinned image |
@@ -160,8 +160,8 @@ fn smooth_error(image: &mut Thinned, style: &mut Random, random: Random) {
     let log_between = |random: &mut Random, low: f64, high: f64| {
         (low.ln() + random.uniform() * (high / low).ln()).exp() as f32
     };
-    let coarse_m = log_between(style, 0.0005, 0.012);
-    let fine_m = log_between(style, 0.0003, 0.006);
+    let coarse_m = log_between(style, 0.0005, 0.015);
+    let fine_m = log_between(style, 0.0003, 0.015);
     let scale = 1.0 + 0.01 * style.normal() as f32;
     let coarse = field(image, random.at(0), style.between(4.0, 15.0) as f32);
     let fine = field(image, random.at(1), style.between(0.7, 2.5) as f32);

@@ -115,7 +115,9 @@ fn undescribed(
     pose: &Pose,
     random: Random,
 ) -> Vec<(TriangleMesh, Transform<Base, Link>)> {
-    const SOME: f64 = 0.35;
+    const SOME: f64 = 0.4;
+    // Most of what is mounted on an arm is at its end.
+    const ON_END_EFFECTOR: f64 = 0.4;
     let mut style = random.at(0);
     if style.uniform() >= SOME {
         return Vec::new();
@@ -123,7 +125,13 @@ fn undescribed(
     let count = 1 + style.index(3);
     let part = |index: u64| {
         let mut random = random.at(1).at(index);
-        let on = random.index(actor.meshes.len());
+        let any = random.index(actor.meshes.len());
+        let at_the_end: Vec<usize> =
+            (0..actor.meshes.len()).filter(|shape| actor.is_end_effector[*shape]).collect();
+        let on = match random.uniform() < ON_END_EFFECTOR && !at_the_end.is_empty() {
+            true => at_the_end[random.index(at_the_end.len())],
+            false => any,
+        };
         let (low, high) = actor.meshes[on].bounds()?;
         let corner = |axis: usize, random: &mut Random| {
             random.between(f64::from(low[axis]), f64::from(high[axis]))
@@ -133,7 +141,7 @@ fn undescribed(
         let axis = Vector3::new(random.normal(), random.normal(), random.normal());
         let turn = UnitQuaternion::new(axis.normalize() * random.between(0.0, 3.1));
         let shape = match random.index(3) {
-            0 => Shape::Box { size: [0, 1, 2].map(|_| random.between(0.02, 0.12)) },
+            0 => Shape::Box { size: [0, 1, 2].map(|_| random.between(0.02, 0.16)) },
             1 => Shape::Cylinder {
                 radius: random.between(0.004, 0.03),
                 length: random.between(0.05, 0.3),

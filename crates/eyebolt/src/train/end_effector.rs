@@ -7,8 +7,8 @@ use super::segmentation::label_loss;
 use super::shot::{At, Framing, Shot};
 use crate::segment::Confusion;
 use crate::segment::{
-    BACKGROUND, CLASSES, END_EFFECTOR, WINDOW_COLUMNS, WINDOW_FEATURES, Window, window_batch,
-    window_half_m,
+    ARM, BACKGROUND, CLASSES, END_EFFECTOR, UNKNOWN, WINDOW_COLUMNS, WINDOW_FEATURES, Window,
+    window_batch, window_half_m,
 };
 use eyebolt_net::losses::Loss;
 use eyebolt_net::models::{Architecture, MinkUNet, ModelDescription};
@@ -51,7 +51,9 @@ const OFF: f64 = 0.25;
 const ANYWHERE: f64 = 0.15;
 /// Share of the steps whose images look at any part of the arm: where it is not known where the end-effector is, it
 /// is looked for all along the arm.
-const ALONG_THE_ARM: f64 = 0.25;
+const ALONG_THE_ARM: f64 = 0.4;
+/// Rooms and cameras that are drawn for a step until something is seen.
+const TRIES: u64 = 20;
 /// Share of the steps whose images have a room around: it takes longer to draw than all else.
 const IN_A_ROOM: f64 = 0.35;
 
@@ -73,8 +75,20 @@ impl EndEffectorLesson {
         Ok(Self { source, images, seed, validation, trained_on, half_m, net, graph, held_out })
     }
 
+    /// Windows of a step, at least one: a camera may see nothing of an arm that is before it.
     fn windows(&self, stream: u64, step: u64) -> Result<Vec<Labelled>, TrainError> {
-        let random = Random::new(self.seed).at(stream).at(step);
+        let first = Random::new(self.seed).at(stream).at(step);
+        let others = (0..TRIES).map(|attempt| first.at(3).at(attempt));
+        for random in std::iter::once(first).chain(others) {
+            let windows = self.windows_of(random)?;
+            if !windows.is_empty() {
+                return Ok(windows);
+            }
+        }
+        Err(TrainError::NothingToSee { tries: TRIES * self.images })
+    }
+
+    fn windows_of(&self, random: Random) -> Result<Vec<Labelled>, TrainError> {
         let room = random.at(0).uniform() < IN_A_ROOM;
         let along = random.at(0).at(1).uniform() < ALONG_THE_ARM;
         let framing = match along {
@@ -106,7 +120,7 @@ impl EndEffectorLesson {
         let off = OFF * f64::from(self.half_m);
         let middle = middle.map(|value| value + (off * random.normal()) as f32);
         let window = Window::new(&shot.image, middle, self.half_m)?;
-        let labels = window.pixels.iter().map(|at| u32::from(shot.label[*at])).collect();
+        let labels = window.pixels.iter().map(|at| class(shot, *at)).collect();
         Some(Labelled { window, labels })
     }
 
@@ -125,6 +139,16 @@ impl EndEffectorLesson {
         let windows: Vec<&Window> = windows.iter().map(|labelled| &labelled.window).collect();
         Ok((window_batch(&self.graph, &windows)?, labels))
     }
+}
+
+/// What is mounted on an arm and in no description is no part of its end-effector, where that is known: it was drawn. In recordings nobody
+/// knows what is unknown.
+fn class(shot: &Shot, at: usize) -> u32 {
+    let label = match shot.label[at] {
+        UNKNOWN if shot.drawn => ARM,
+        label => label,
+    };
+    u32::from(label)
 }
 
 fn mean(shot: &Shot, pixels: &[usize]) -> [f32; 3] {

@@ -106,5 +106,6 @@ fn shot_of(frame: DatasetFrame, framing: Framing) -> Shot {
         image,
         camera_from_end_effector: frame.camera_from_end_effector,
         joints: frame.joints,
+        drawn: false,
     }
 }

@@ -37,6 +37,8 @@ pub struct Shot {
     pub camera_from_end_effector: Transform<Camera, EndEffector>,
     /// Joints of the arm, fingers included.
     pub joints: JointPositions,
+    /// Whether it was drawn, and not recorded: then all that is unknown is mounted on the arm.
+    pub drawn: bool,
 }
 
 /// What a camera looks at.
@@ -153,7 +155,8 @@ impl Cast {
                 }
             }
             let camera_from_end_effector = drawing.camera_from_end_effector();
-            Shot { image, label, camera_from_end_effector, joints: drawing.pose.joints }
+            let joints = drawing.pose.joints;
+            Shot { image, label, camera_from_end_effector, joints, drawn: true }
         };
         Ok(drawings.into_iter().zip(0..).map(shot).collect())
     }

@@ -2,7 +2,8 @@
 
 use crate::scene::{SHAPE, Truth, frames};
 use eyebolt::pose::{
-    Comparison, Judge, Observed, PoseHypothesis, Source, half_turns, with_translation,
+    Comparison, Judge, Observed, PoseHypothesis, SmoothSurface, Source, half_turns,
+    with_translation,
 };
 use eyebolt::segment::{BACKGROUND, END_EFFECTOR};
 use eyebolt_geometry::{DepthImage, Transform};
@@ -118,4 +119,32 @@ fn too_little_in_view_is_nothing_observed() {
     let extent_m = SHAPE.end_effector.extent_m();
     let none = vec![0; truth.label.len()];
     assert!(Observed::new(&truth.depth, &truth.camera, &none, extent_m).is_none());
+}
+
+/// A hand has corners and steps, and a tube or a ball of the same outline has none: to that it is no matter how well the hand fits.
+#[test]
+fn a_hand_is_no_smooth_surface() {
+    let mut seen = 0;
+    for truth in frames("paper-test-p1") {
+        let Some(mut observed) = observed(&truth) else { continue };
+        seen += 1;
+        let posture = SHAPE.posture(&truth.joints);
+        let significance = |observed: &Observed| {
+            let smooth = SmoothSurface::fit(observed).unwrap();
+            let mut judge = Judge::new(&SHAPE, observed);
+            let posed = (&posture, &truth.pose);
+            Comparison::with_smooth(&mut judge, posed, &smooth, 0.002).significance()
+        };
+        let hand = significance(&observed);
+        let smooth = SmoothSurface::fit(&observed).unwrap();
+        let image = &mut observed.image;
+        for at in 0..observed.label.len() {
+            if observed.label[at] == END_EFFECTOR {
+                image.depth_m[at] = smooth.depth_m(image.rays[at]) as f32;
+            }
+        }
+        let other = significance(&observed);
+        assert!(hand > 1.7 && other < -1.7, "{hand} {other}");
+    }
+    assert!(seen >= 5, "{seen}");
 }

@@ -1,7 +1,7 @@
 //! What is learned from windows around an end-effector, and views of it.
 
 use crate::small::{Memory, Repeated, Until, end_effector_lesson, hand, plan};
-use eyebolt::train::{Beginning, Plan, teach};
+use eyebolt::train::{Beginning, Lesson, Plan, teach};
 use nalgebra::{Isometry3, Point3};
 
 /// The same windows, again and again, are learned by heart: a hand can be told from its arm in them.
@@ -13,6 +13,17 @@ fn windows_are_learned_by_heart() {
     teach(&lesson, &plan, Beginning::Anew, &mut keep, &Until(usize::MAX)).unwrap();
     let losses: Vec<f64> = keep.reports.iter().map(|report| report.loss).collect();
     assert!(losses[2] < 0.25 * losses[0] && losses[2] < 0.3, "{losses:?}");
+}
+
+/// A camera may see nothing of the arm before it: then another image is drawn, and no step is without windows.
+#[test]
+fn no_step_is_without_windows() {
+    let mut lesson = end_effector_lesson();
+    lesson.images = 1;
+    for step in 0..200 {
+        let (_, labels) = lesson.batch(step).unwrap();
+        assert!(!labels.is_empty(), "{step}");
+    }
 }
 
 /// However a view is rolled, its points are on the end-effector where the truth has it; no two views are alike.
