@@ -99,7 +99,8 @@ mod tests {
         let inside = |at: usize| (40..80).contains(&(at % 120)) && (30..60).contains(&(at / 120));
         let depth_m = |at: usize| {
             let [x, y] = ray(at);
-            let behind = if at % 3 == 0 { 0.01 + 0.2 * ((at / 3) % 5) as f64 } else { 0.0 };
+            let behind =
+                if at.is_multiple_of(3) { 0.01 + 0.2 * ((at / 3) % 5) as f64 } else { 0.0 };
             (bowl(x, y) + behind) as f32
         };
         let depth = DepthImage::new(120, 90, (0..120 * 90).map(depth_m).collect()).unwrap();
