@@ -45,7 +45,7 @@ pub use refine::{
     Start, StopReason, Trust, ViewEvidence, ViewFit, birge_ratio, change_point,
     predicted_information, refine, residuals, settle, view_evidence,
 };
-pub use robust::median;
+pub use robust::{geman_mcclure, median};
 pub use rotations::spread_rotations;
 pub use search::{Candidate, SearchView, search};
 pub use silhouette::{Label, Labels, Silhouette};

@@ -2,7 +2,7 @@
 
 /// Geman and McClure's weight for residual `r` at scale `scale`: 1 at 0, 1/4 at the scale, falling
 /// with the fourth power, so what is far off soon has no say.
-pub(crate) fn geman_mcclure(r: f64, scale: f64) -> f64 {
+pub fn geman_mcclure(r: f64, scale: f64) -> f64 {
     let ratio = r / scale;
     let root = 1.0 / (1.0 + ratio * ratio);
     root * root

@@ -2,7 +2,7 @@
 
 use super::observed::Observed;
 use crate::segment::END_EFFECTOR;
-use eyebolt_registration::median;
+use eyebolt_registration::{geman_mcclure, median};
 use nalgebra::{SMatrix, SVector};
 
 /// A surface whose depth is a quadratic function of where it is in the image: plates, tubes and balls are
@@ -55,9 +55,8 @@ impl SmoothSurface {
             let mut right = SVector::<f64, TERMS>::zeros();
             for at in &pixels {
                 let (terms, z) = (found.terms(image.rays[*at]), f64::from(image.depth_m[*at]));
-                let off = (z - found.coefficients.dot(&terms)) / (2.0 * found.deviation_m);
-                // Geman and McClure's weight.
-                let weight = (1.0 + off * off).powi(-2);
+                let off = z - found.coefficients.dot(&terms);
+                let weight = geman_mcclure(off, 2.0 * found.deviation_m);
                 normal += weight * terms * terms.transpose();
                 right += weight * z * terms;
             }

@@ -115,11 +115,12 @@ const PARTS: f64 = 0.25;
 /// Least share of the end-effector's pixels on the shape, and most of the shape's that the camera saw through.
 const LEAST_EXPLAINED: f64 = 0.5;
 const MOST_SEEN_THROUGH: f64 = 0.2;
-/// Least share of the posed shape that shows: where the frame says clearly that it is no smooth surface, by so many standard deviations, and
-/// where it does not, since by chance a shape fits to anything that is small. Of some 600 poses that were tried in semi-real frames, nine
+/// Least share of the posed shape that shows: where the frame says clearly that it is no smooth surface, and where it does not,
+/// since by chance a shape fits to anything that is small.
+const LEAST_SHOWN: [f64; 2] = [0.25, 0.45];
+/// By so many standard deviations it says so clearly. Of some 600 poses that were tried in semi-real frames, nine
 /// in ten of the right ones have 1.9 standard deviations and more; none of those with 1.7 that were somewhere else explained 55 % of
 /// what was seen and was seen through by less than 27 %.
-const LEAST_SHOWN: [f64; 2] = [0.25, 0.45];
 pub(super) const CLEARLY: f64 = 1.7;
 /// By so many a smooth surface is better: three in a hundred of the right poses, and three in four of those elsewhere.
 const SMOOTH: f64 = 1.2;

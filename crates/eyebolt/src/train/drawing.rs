@@ -123,11 +123,11 @@ fn undescribed(
         return Vec::new();
     }
     let count = 1 + style.index(3);
+    let at_the_end: Vec<usize> =
+        (0..actor.meshes.len()).filter(|shape| actor.is_end_effector[*shape]).collect();
     let part = |index: u64| {
         let mut random = random.at(1).at(index);
         let any = random.index(actor.meshes.len());
-        let at_the_end: Vec<usize> =
-            (0..actor.meshes.len()).filter(|shape| actor.is_end_effector[*shape]).collect();
         let on = match random.uniform() < ON_END_EFFECTOR && !at_the_end.is_empty() {
             true => at_the_end[random.index(at_the_end.len())],
             false => any,
