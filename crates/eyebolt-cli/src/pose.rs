@@ -5,6 +5,7 @@ mod finder;
 mod follow;
 mod lines;
 mod mcap;
+mod standard_input;
 
 use crate::ending::Ending;
 use crate::inputs::use_threads;
@@ -16,6 +17,7 @@ use eyebolt::progress::Progress;
 use eyebolt_recording::{OPTICAL_FRAME, Recording, counted};
 use finder::Finder;
 use lines::Line;
+use standard_input::StandardInput;
 use std::fs::File;
 use std::path::Path;
 
@@ -25,13 +27,14 @@ pub fn run(arguments: &Arguments) -> Result<Ending> {
     if let Some(path) = &arguments.output {
         output::refuse_existing(path, arguments.force)?;
     }
-    let at_once = arguments.json || arguments.follow;
+    let follow = arguments.follow || StandardInput::is_named(&arguments.recording.recording);
+    let at_once = arguments.json || follow;
     let mut tell = |line: &Line| {
         if at_once {
             output::say(&if arguments.json { line.json() } else { line.text() });
         }
     };
-    let (lines, frame_id) = if arguments.follow {
+    let (lines, frame_id) = if follow {
         follow::of(arguments, &mut tell)?
     } else {
         let recording = named(arguments)?;

@@ -1,6 +1,8 @@
 //! Where the networks of a model are.
 
-use eyebolt_models::{BUILT_IN, BuiltInModel};
+use eyebolt_models::BUILT_IN;
+pub use eyebolt_models::BuiltInModel;
+use eyebolt_net::models::Model;
 use std::borrow::Cow;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -12,6 +14,20 @@ pub enum ModelFiles {
     Folder(PathBuf),
     /// One that comes with eyebolt.
     BuiltIn(&'static BuiltInModel),
+}
+
+/// Why a network cannot be had.
+#[derive(Debug)]
+pub enum LoadError {
+    /// A file cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: Error,
+    },
+    /// The files are no network.
+    Net(eyebolt_net::Error),
 }
 
 /// The description of a network, in its folder.
@@ -52,20 +68,23 @@ impl ModelFiles {
         }
     }
 
-    /// Description of the network of that name, TOML.
+    /// The network of that name.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read; files that are no network.
+    pub fn load(&self, network: &str) -> Result<Model, LoadError> {
+        let failed = |(path, source)| LoadError::Read { path, source };
+        let text = self.file(network, DESCRIPTION).map_err(failed)?;
+        let weights = self.weights(network).map_err(failed)?;
+        Model::load(&String::from_utf8_lossy(&text), &weights).map_err(LoadError::Net)
+    }
+
+    /// Its weights alone, safetensors.
     ///
     /// # Errors
     ///
     /// The file that cannot be read, and why.
-    pub fn description(&self, network: &str) -> Result<String, (PathBuf, Error)> {
-        Ok(String::from_utf8_lossy(&self.file(network, DESCRIPTION)?).into_owned())
-    }
-
-    /// Its weights, safetensors.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::description`].
     pub fn weights(&self, network: &str) -> Result<Cow<'static, [u8]>, (PathBuf, Error)> {
         self.file(network, WEIGHTS)
     }
@@ -97,12 +116,11 @@ mod tests {
         for name in ModelFiles::names() {
             let model = ModelFiles::at(name.into());
             assert!(model.has("segmentation") && !model.has(""));
-            let text = model.description("segmentation").unwrap();
-            let weights = model.weights("segmentation").unwrap();
-            eyebolt_net::models::Model::load(&text, &weights).unwrap();
+            model.load("segmentation").unwrap();
         }
-        let (path, error) = ModelFiles::at("any-arm".into()).weights("rotation").unwrap_err();
-        assert_eq!(path, Path::new("any-arm/rotation/weights.safetensors"));
-        assert_eq!(error.kind(), ErrorKind::NotFound);
+        let missing = ModelFiles::at("any-arm".into()).load("rotation");
+        let Err(LoadError::Read { path, source }) = missing else { panic!("it has none") };
+        assert_eq!(path, Path::new("any-arm/rotation/model.toml"));
+        assert_eq!(source.kind(), ErrorKind::NotFound);
     }
 }

@@ -19,6 +19,7 @@ mod recognizer;
 mod rotation_net;
 mod shape;
 mod smooth;
+mod through;
 mod trust;
 mod view;
 

@@ -227,6 +227,7 @@ def train(
     minutes: Optional[float] = None,
     steps: Optional[int] = None,
     from_: Optional[PathLike] = None,
+    from_nothing: bool = False,
     preset: str = "default",
     seed: int = 1,
     force: bool = False,
@@ -246,7 +247,8 @@ def train(
         simulated: With `data`, share of the steps with simulated images, 0 to 1.
         also: With `any_arm`, URDFs of real arms to know too.
         minutes, steps: How long each network is taught; the same steps give the same bytes.
-        from_: Begin with the weights of another model, as far as they fit (`--from`).
+        from_: Begin with the weights of another model, as far as they fit (`--from`); otherwise, of one robot, those of `any-arm`.
+        from_nothing: Begin with weights that are drawn at random.
         preset: Which networks, as the program has them.
         seed: Seed of all random choices.
         force: Begin anew, whatever is there.

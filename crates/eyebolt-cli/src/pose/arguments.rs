@@ -28,7 +28,8 @@ pub struct Arguments {
     /// opening is found
     #[arg(long)]
     pub(super) joint_states: bool,
-    /// Go on with frames as they come into an MCAP that is still being written, until it ends or Ctrl-C
+    /// Go on with frames as they come into an MCAP that is still being written, until it ends or Ctrl-C; so it is, too,
+    /// where RECORDING is -, an MCAP by standard input
     #[arg(long)]
     pub(super) follow: bool,
     /// A line of JSON for each frame instead of text

@@ -5,7 +5,7 @@ use crate::simulate::flags::RobotArguments;
 use crate::simulate::numbers;
 use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use eyebolt::model_files::ModelFiles;
+use eyebolt::model_files::{BuiltInModel, ModelFiles};
 use eyebolt::train::Preset;
 use std::path::PathBuf;
 
@@ -63,9 +63,13 @@ pub struct Arguments {
     /// Seed of all random choices
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Begin with the weights of another model, as far as they fit: an arm is learned faster from any-arm
+    /// Begin with the weights of another model, as far as they fit [default: of one robot any-arm, which comes with the
+    /// program and knows what arms look like, as far as it has a network of the kind]
     #[arg(long, value_name = "MODEL", value_parser = model_files())]
-    pub from: Option<ModelFiles>,
+    from: Option<ModelFiles>,
+    /// Begin with weights that are drawn at random
+    #[arg(long, conflicts_with = "from")]
+    from_nothing: bool,
     /// Folder of the model; begun networks in it are gone on with, ready ones are left as they are
     #[arg(short, long, value_name = "FOLDER")]
     pub output: PathBuf,
@@ -99,6 +103,16 @@ fn preset() -> impl TypedValueParser<Value = Preset> {
 }
 
 impl Arguments {
+    /// The model whose weights the network of `kind` begins with.
+    pub fn from(&self, kind: Kind) -> Option<ModelFiles> {
+        if self.from.is_some() || self.from_nothing {
+            return self.from.clone();
+        }
+        let model = BuiltInModel::named("any-arm").map(ModelFiles::BuiltIn)?;
+        let fits = !self.any_arm && self.preset == Preset::Default && model.has(kind.name());
+        fits.then_some(model)
+    }
+
     /// The networks that are asked for.
     pub fn kinds(&self) -> Result<&'static [Kind]> {
         Ok(match self.what {

@@ -1,5 +1,6 @@
 //! The folder of a network, while it is taught and after.
 
+use super::arguments::Kind;
 use crate::front::Front;
 use crate::output;
 use anyhow::{Context, Result, anyhow};
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 pub struct ModelFolder<'a> {
     front: &'a dyn Front,
     path: PathBuf,
+    kind: Kind,
     force: bool,
     reports: Vec<Report>,
 }
@@ -22,16 +24,22 @@ const LOG: &str = "log.jsonl";
 const EVENTS: &str = "events.out.tfevents.eyebolt";
 
 impl<'a> ModelFolder<'a> {
-    /// At `path`, which is made; with `force`, what is there is as if it were not.
-    pub fn new(path: &Path, force: bool, front: &'a dyn Front) -> Result<Self> {
+    /// Of a network of `kind` in the folder of a `model`, which is made; with `force`, what is there is as if it were not.
+    pub fn new(model: &Path, kind: Kind, force: bool, front: &'a dyn Front) -> Result<Self> {
+        let path = model.join(kind.name());
         let failed =
             || format!("{}: cannot make the folder. Name another with --output", path.display());
-        std::fs::create_dir_all(path).with_context(failed)?;
-        let mut folder = Self { front, path: path.to_owned(), force, reports: Vec::new() };
+        std::fs::create_dir_all(&path).with_context(failed)?;
+        let mut folder = Self { front, path, kind, force, reports: Vec::new() };
         if !force && folder.checkpoint()?.is_some() {
             folder.reports = folder.read_log();
         }
         Ok(folder)
+    }
+
+    /// What the network tells.
+    pub fn kind(&self) -> Kind {
+        self.kind
     }
 
     /// Where it is.
@@ -57,12 +65,12 @@ impl<'a> ModelFolder<'a> {
     /// Weights of the network of the same kind in the folder of another model; none if that model, as any-arm,
     /// has no such network.
     pub fn weights_of(&self, model: &ModelFiles) -> Result<Option<Vec<u8>>> {
-        let own = self.path.file_name().unwrap_or_default().to_string_lossy();
-        if model.has("segmentation") && !model.has(&own) {
+        let own = self.kind.name();
+        if model.has(Kind::Segmentation.name()) && !model.has(own) {
             self.front.say(&format!("  {} has none to begin with", model.place("").display()));
             return Ok(None);
         }
-        let weights = model.weights(&own).map_err(|(path, source)| {
+        let weights = model.weights(own).map_err(|(path, source)| {
             let remedy = "Name a model with --from";
             anyhow!(source).context(format!("{}: cannot read it. {remedy}", path.display()))
         })?;

@@ -24,7 +24,7 @@ pub fn teach(
     front: &dyn Front,
     progress: &dyn Progress,
 ) -> Result<()> {
-    let folder = ModelFolder::new(&arguments.output.join(kind.name()), arguments.force, front)?;
+    let folder = ModelFolder::new(&arguments.output, kind, arguments.force, front)?;
     if folder.is_ready() {
         front.say(&format!(
             "{}: is there already; --force teaches it anew",
@@ -151,8 +151,8 @@ fn finish<L: Lesson>(
         }
     };
     progress.begin("train")?;
-    let weights = match (&checkpoint, &arguments.from) {
-        (None, Some(from)) => folder.weights_of(from)?,
+    let weights = match (&checkpoint, arguments.from(folder.kind())) {
+        (None, Some(from)) => folder.weights_of(&from)?,
         _ => None,
     };
     let beginning = match (&checkpoint, &weights) {

@@ -6,7 +6,7 @@ use crate::simulate::SIMULATED;
 use eyebolt_recording::SessionWriter;
 use serde_json::Value;
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -126,6 +126,45 @@ fn a_recording_that_grows_is_followed() {
     assert!(answered >= 10, "{all:?}");
     eyebolt(&["pose", text(&RECORDING), "--follow", "--model", "shackle"])
         .assert_error(1, &["--follow", "MCAP"]);
+}
+
+/// By standard input, too; and where that is cut, all that came is used.
+#[test]
+fn a_recording_comes_by_standard_input() {
+    let bytes = fs::read(&*SIMULATED).unwrap();
+    let words = ["pose", "-", "--json", "--robot", "shackle", "--model", "shackle"];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_eyebolt"))
+        .args([&words[..], &["--cache", text(&CACHE)]].concat())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let (first, last) = bytes.split_at(2 * bytes.len() / 3);
+    input.write_all(first).unwrap();
+    let begun = lines.next().unwrap().unwrap();
+    assert!(begun.contains("\"answered\""), "{begun}");
+    // Without its end.
+    input.write_all(&last[..last.len() - 20]).unwrap();
+    drop(input);
+    assert_eq!(1 + lines.count(), 15);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn standard_input_that_is_no_recording_is_refused() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_eyebolt"))
+        .args(["pose", "-", "--model", "shackle"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(b"neither an MCAP nor anything else").unwrap();
+    let ended = child.wait_with_output().unwrap();
+    let told = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{told}");
+    assert!(told.contains("standard-input.mcap") && told.contains("MCAP"), "{told}");
 }
 
 #[test]

@@ -81,6 +81,22 @@ fn labels_open_in_numpy_and_are_not_overwritten() {
     segment().assert_error(1, &["label_0.npy", "exists", "--force"]);
 }
 
+/// What is known of any arm is what an arm's segmentation begins with, unless something else is asked for.
+#[test]
+fn a_segmentation_begins_with_any_arm() {
+    let desk = Desk::new();
+    let weights =
+        |folder: &Path| fs::read(folder.join("segmentation/weights.safetensors")).unwrap();
+    let taught = |name: &str, more: &[&str]| {
+        let output = desk.file(name);
+        let ended = train(&output, more);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        weights(&output)
+    };
+    assert!(taught("named", &["--from", "any-arm"]) == weights(&model()));
+    assert!(taught("nothing", &["--from-nothing"]) != weights(&model()));
+}
+
 /// Killed at any moment, the same command comes to the same bytes.
 #[test]
 fn a_run_that_was_killed_comes_to_the_same_bytes() {
@@ -134,6 +150,7 @@ fn what_cannot_be_taught_is_said() {
     refused(&["rotation", "--any-arm"], &["--any-arm", "Teach the segmentation"]);
     refused(&["--any-arm", "--robot", "shackle"], &["--any-arm", "--robot"]);
     refused(&["segmentation", "--steps", "2", "--from", "nowhere"], &["nowhere", "--from"]);
+    refused(&["--from", "any-arm", "--from-nothing"], &["--from", "--from-nothing"]);
     refused(&["segmentation", "--data", "nowhere"], &["nowhere"]);
     refused(&["--robot", "nobody.urdf"], &["nobody.urdf"]);
     refused(&["--simulated", "0.5"], &["--data"]);

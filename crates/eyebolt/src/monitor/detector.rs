@@ -41,27 +41,45 @@ const LIKELY: f64 = 2.3;
 /// Otherwise the drift is that of so many last views.
 const RECENT: usize = 12;
 
+/// Something of each thing that may have moved.
+#[derive(Clone, Debug)]
+pub struct Suspects<T> {
+    /// Camera or base, which moved by more or by less: one thing.
+    pub pose: Vec<T>,
+    /// Others, each a thing of its own.
+    pub others: Vec<T>,
+}
+
+impl<T> Suspects<T> {
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        self.pose.iter().chain(&self.others)
+    }
+
+    fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.pose.iter_mut().chain(&mut self.others)
+    }
+}
+
 /// What is believed of the shifts before anything is seen.
 #[derive(Clone, Debug)]
 pub struct Beliefs {
     /// If nothing moved: how well what is stored is known.
     pub unmoved: Belief,
     /// If something moved, for each thing that may have, as far as it may have. A view that is spoilt looks like any of them.
-    pub suspects: Vec<Belief>,
-    /// How many of them, the first ones, are the same thing moved by more or by less.
-    pub alike: usize,
+    pub suspects: Suspects<Belief>,
 }
 
 impl Beliefs {
-    /// The suspects, each with the logarithm of how likely it is beforehand: those that are alike as all others together.
-    fn weighed(&self) -> impl Iterator<Item = (f64, &Belief)> {
-        let others = self.suspects.len().saturating_sub(self.alike);
-        let share = if others == 0 { 1.0 } else { 0.5 };
-        self.suspects.iter().enumerate().map(move |(place, belief)| {
-            let of = if place < self.alike { self.alike } else { others };
-            let weight: f64 = share / of as f64;
-            (weight.ln(), belief)
-        })
+    /// The suspects, each with the logarithm of how likely it is beforehand: the pose as all others together.
+    fn weighed(&self) -> Suspects<(f64, Belief)> {
+        let Suspects { pose, others } = &self.suspects;
+        let share = if others.is_empty() { 1.0 } else { 0.5 };
+        let weighed = |of: &[Belief]| {
+            let log = (share / of.len().max(1) as f64).ln();
+            of.iter().map(|belief| (log, belief.clone())).collect()
+        };
+        Suspects { pose: weighed(pose), others: weighed(others) }
     }
 }
 
@@ -70,17 +88,15 @@ impl Beliefs {
 pub(super) struct Moment {
     /// The first view after it, counted from 0 among those that count.
     pub since: usize,
-    /// How many suspects, the first ones, are the same thing.
-    pub alike: usize,
     /// Of each suspect: logarithm of its weight times the likelihood ratio of the views after, and where it has everything.
-    pub suspects: Vec<(f64, Belief)>,
+    pub suspects: Suspects<(f64, Belief)>,
 }
 
 impl Moment {
-    /// The likeliest of the first suspects, which are alike, and its number.
-    pub fn first(&self) -> Option<(usize, &Belief)> {
-        let alike = self.suspects.iter().take(self.alike).enumerate();
-        let likeliest = alike.max_by(|(_, (a, _)), (_, (b, _))| a.total_cmp(b));
+    /// The likeliest belief of those in which camera or base moved, and its number.
+    pub fn pose(&self) -> Option<(usize, &Belief)> {
+        let pose = self.suspects.pose.iter().enumerate();
+        let likeliest = pose.max_by(|(_, (a, _)), (_, (b, _))| a.total_cmp(b));
         likeliest.map(|(number, (_, belief))| (number, belief))
     }
 
@@ -108,8 +124,9 @@ impl Detector {
     /// Counts a view with this evidence of the shifts.
     pub fn count(&mut self, evidence: &Quadratic) {
         // As good as the best suspect before anything is seen: no first view has a ratio of more than 1 / SPOILT.
+        let suspects = self.beliefs.weighed();
         let likelihoods =
-            self.beliefs.weighed().map(|(log, belief)| log + belief.log_likelihood(evidence));
+            suspects.iter().map(|(log, belief)| log + belief.log_likelihood(evidence));
         let spoilt = SPOILT.ln() + likelihoods.fold(f64::NEG_INFINITY, log_sum);
         // How likely a belief made the view, and what it learns of it: of one that is rather spoilt, nothing.
         let tell = |belief: &mut Belief| {
@@ -121,7 +138,7 @@ impl Detector {
         };
         let if_unmoved = tell(&mut self.beliefs.unmoved);
         self.begin_moment();
-        for (log, belief) in self.moments.iter_mut().flat_map(|moment| &mut moment.suspects) {
+        for (log, belief) in self.moments.iter_mut().flat_map(|moment| moment.suspects.iter_mut()) {
             *log += tell(belief) - if_unmoved;
         }
     }
@@ -129,7 +146,7 @@ impl Detector {
     /// Counts a view in which the arm is not where it should be, nor anywhere near: if nothing moved, it is spoilt.
     pub fn count_absent(&mut self) {
         self.begin_moment();
-        let suspects = self.moments.iter_mut().flat_map(|moment| &mut moment.suspects);
+        let suspects = self.moments.iter_mut().flat_map(|moment| moment.suspects.iter_mut());
         suspects.for_each(|(log, _)| *log -= SPOILT.ln());
     }
 
@@ -140,9 +157,7 @@ impl Detector {
                 self.moments.remove(least);
             }
         }
-        let suspects = self.beliefs.weighed().map(|(log, belief)| (log, belief.clone())).collect();
-        let alike = self.beliefs.alike;
-        self.moments.push(Moment { since: self.counted, alike, suspects });
+        self.moments.push(Moment { since: self.counted, suspects: self.beliefs.weighed() });
         self.counted += 1;
     }
 

@@ -5,7 +5,7 @@
 //! one, and whoever needs fewer is believed rather.
 
 use super::belief::Belief;
-use super::detector::{Beliefs, Moment};
+use super::detector::{Beliefs, Moment, Suspects};
 use super::known::Known;
 use eyebolt_registration::{ArmModel, MOST_JOINTS, SHIFTS};
 use nalgebra::DMatrix;
@@ -54,7 +54,7 @@ fn joints(arm: &ArmModel) -> impl Iterator<Item = (usize, &str)> {
     joints.filter(|(_, joint)| !joint.defines_base).map(|(place, j)| (6 + place, j.name.as_str()))
 }
 
-/// What is believed before anything is seen: the first suspects are the camera or the base.
+/// What is believed before anything is seen.
 pub(super) fn beliefs(arm: &ArmModel, known: &Known) -> Beliefs {
     let mut unmoved = Belief::about_zero(&[KNOWN_RAD; SHIFTS]);
     let of_pose = DMatrix::from_fn(6, 6, |i, j| known.covariance[(i, j)]);
@@ -69,8 +69,8 @@ pub(super) fn beliefs(arm: &ArmModel, known: &Known) -> Beliefs {
         belief.covariance[(place, place)] += SLIPPED_RAD.powi(2);
         belief
     };
-    let slipped: Vec<Belief> = joints(arm).map(slipped).collect();
-    Beliefs { suspects: camera.into_iter().chain(slipped).collect(), alike: BY.len(), unmoved }
+    let others = joints(arm).map(slipped).collect();
+    Beliefs { suspects: Suspects { pose: camera.to_vec(), others }, unmoved }
 }
 
 /// The suspects since `moment`, likeliest first.
@@ -78,13 +78,13 @@ pub(super) fn suspects(arm: &ArmModel, moment: &Moment) -> Vec<Moved> {
     let best = moment.suspects.iter().map(|(log, _)| *log).fold(f64::NEG_INFINITY, f64::max);
     let sum: f64 = moment.suspects.iter().map(|(log, _)| (log - best).exp()).sum();
     let share = |(log, _): &(f64, Belief)| (log - best).exp() / sum;
-    let (camera, slipped) = moment.suspects.split_at(moment.alike.min(moment.suspects.len()));
+    let Suspects { pose, others } = &moment.suspects;
     let camera = Moved {
         what: Suspect::CameraOrBase,
-        probability: camera.iter().map(share).sum(),
+        probability: pose.iter().map(share).sum(),
         joint_deg: None,
     };
-    let slipped = joints(arm).zip(slipped).map(|((place, name), suspect)| Moved {
+    let slipped = joints(arm).zip(others).map(|((place, name), suspect)| Moved {
         what: Suspect::JointZero(name.to_owned()),
         probability: share(suspect),
         joint_deg: Some(suspect.1.mean[place].to_degrees()),

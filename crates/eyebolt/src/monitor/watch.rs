@@ -193,7 +193,7 @@ impl<'a> Monitor<'a> {
         let views = self.counted() - moment.since;
         let pose = &self.known.start.camera_from_base;
         let shift = shift(moment)?;
-        let (_, belief) = moment.first()?;
+        let (_, belief) = moment.pose()?;
         let of_views = Matrix6::from_fn(|i, j| belief.covariance[(i, j)]);
         let covariance = of_views + self.known.covariance;
         let reach = pose.direction(&self.known.workspace_in_base.coords);
@@ -252,7 +252,7 @@ fn evidence(
 /// Where the views since `moment` have the pose, against the stored one, if camera or base moved; `None` where they hardly
 /// tell.
 fn shift(moment: &Moment) -> Option<Vector6<f64>> {
-    let (number, belief) = moment.first()?;
+    let (number, belief) = moment.pose()?;
     let is_told = (0..6).all(|i| belief.covariance[(i, i)] < (TOLD * BY[number]).powi(2));
     is_told.then(|| Vector6::from_fn(|i, _| belief.mean[i]))
 }

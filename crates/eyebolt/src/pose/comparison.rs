@@ -1,6 +1,6 @@
 //! Two poses against each other, pixel by pixel.
 
-use super::judge::Judge;
+use super::judge::{Judge, pixel_cost};
 use super::smooth::SmoothSurface;
 use crate::segment::END_EFFECTOR;
 use eyebolt_geometry::{Base, Camera, Transform};
@@ -50,7 +50,7 @@ impl Comparison {
             let z = f64::from(observed.image.depth_m[at]);
             let says = z > 0.0 && drawn[at] && observed.label[at] == END_EFFECTOR;
             let off = (z - smooth.depth_m(observed.image.rays[at])) / (3.0 * deviation_m);
-            says.then_some((off * off).min(1.0) as f32)
+            says.then_some(pixel_cost(off as f32))
         });
         let costs: Vec<Option<f32>> = costs.collect();
         let posed =

@@ -64,6 +64,7 @@ impl Contest<'_> {
         judged.extend(opened);
         self.by_one_measure(&mut judged);
         keep_distinct(self.shape, &mut judged, FINALISTS);
+        self.look_closely(&mut judged);
         judged
     }
 
@@ -104,6 +105,15 @@ impl Contest<'_> {
         let mut judge = Judge::new(self.shape, self.observed);
         let pose = (&self.openings[best.opening], &best.fit.camera_from_base);
         Some(Comparison::with_smooth(&mut judge, pose, &smooth, deviation_m))
+    }
+
+    /// At the best of `judged`, whose place does not depend on it.
+    fn look_closely(&self, judged: &mut [Judged]) {
+        let deviation_m = MEASURE * measure_m(judged);
+        let Some(best) = judged.first_mut() else { return };
+        let mut judge = Judge::new(self.shape, self.observed);
+        let pose = &best.fit.camera_from_base;
+        best.support = judge.close_support(&self.openings[best.opening], pose, deviation_m);
     }
 
     /// Judges all by the deviation of the one that fits best.

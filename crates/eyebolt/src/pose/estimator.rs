@@ -54,6 +54,14 @@ impl PoseAnswer {
         matches!(self.refusal, None | Some(Refusal::Ambiguous { .. }))
     }
 
+    /// Whether it explains some of what was seen, so that the right pose may be near.
+    pub(super) fn may_be_near(&self) -> bool {
+        /// Least share of what was seen, and most of the shape that was seen through.
+        const NEAR: [f64; 2] = [0.3, 0.4];
+        let [explained, through] = NEAR;
+        self.support.explained > explained && self.support.seen_through < through
+    }
+
     /// By how many standard deviations the frame is for it and against a smooth surface; none where it does not tell.
     pub(super) fn significance(&self) -> f64 {
         self.against_smooth.as_ref().map_or(0.0, Comparison::significance)

@@ -2,6 +2,7 @@
 
 use super::observed::Observed;
 use super::shape::EndEffectorShape;
+use super::through::seen_through;
 use crate::segment::END_EFFECTOR;
 use eyebolt_geometry::{Base, Camera, Transform};
 use eyebolt_registration::Posture;
@@ -17,7 +18,8 @@ pub struct Support {
     pub pixels: usize,
     /// Of the end-effector's pixels, the share on the posed shape.
     pub explained: f64,
-    /// Of the posed shape's pixels with depth that is not in front of it, the share where the camera saw through it.
+    /// Of the posed shape's pixels with depth that is not in front of it, the share where depth is behind it; of an answer, without
+    /// matches that failed.
     pub seen_through: f64,
     /// Of the posed shape's pixels with depth, the share that shows the shape: the rest is hidden by something before it, or seen through.
     pub shown: f64,
@@ -84,6 +86,32 @@ impl<'a> Judge<'a> {
         pixels.map(|at| self.said(at, reach).map(|said| said.cost)).collect()
     }
 
+    /// As [`Self::support`], where failed matches are told from what the camera saw through the shape: slower, and of use where
+    /// one pose is looked at closely.
+    pub fn close_support(
+        &mut self,
+        posture: &Posture,
+        pose: &Transform<Camera, Base>,
+        deviation_m: f64,
+    ) -> Support {
+        let support = self.support(posture, pose, deviation_m);
+        let reach_m = 3.0 * deviation_m;
+        let all = 0..self.observed.label.len();
+        let said: Vec<_> = all.map(|at| self.said(at, reach_m as f32)).collect();
+        let on = |said: &Option<Said>| said.as_ref().is_some_and(|said| said.drawn);
+        let behind: Vec<bool> =
+            said.iter().map(|said| said.as_ref().is_some_and(|said| said.through)).collect();
+        let drawn: Vec<bool> =
+            (0..said.len()).map(|at| self.raster.depth_m(at).is_some()).collect();
+        let distance_m = self.observed.middle().z;
+        let image = &self.observed.image;
+        let through = seen_through(image, (&behind, &drawn), (reach_m, distance_m));
+        let failed = behind.iter().zip(&through).filter(|(behind, through)| **behind && !**through);
+        let says = said.iter().filter(|said| on(said)).count() - failed.count();
+        let through = through.into_iter().filter(|through| *through).count();
+        Support { seen_through: through as f64 / says.max(1) as f64, ..support }
+    }
+
     /// Depth of the shape as it was drawn last, at a pixel where it is, metres.
     pub fn drawn_m(&self, at: usize) -> Option<f32> {
         self.raster.depth_m(at)
@@ -107,7 +135,7 @@ impl<'a> Judge<'a> {
         let off = (seen - drawn) / reach_m;
         // Else something is before it.
         let says = off >= -1.0 || of_it;
-        says.then(|| Said { cost: (off * off).min(1.0), drawn: true, through: off > 1.0 })
+        says.then(|| Said { cost: pixel_cost(off), drawn: true, through: off > 1.0 })
     }
 
     /// Share of the drawn outline beyond which the surface seen goes on.
@@ -142,6 +170,11 @@ impl<'a> Judge<'a> {
         }
         f64::from(on as u32) / f64::from((outline as u32).max(1))
     }
+}
+
+/// What a pixel costs whose depth is so far off, in units of three standard deviations; at most 1.
+pub(super) fn pixel_cost(off: f32) -> f32 {
+    (off * off).min(1.0)
 }
 
 /// What a pixel says.

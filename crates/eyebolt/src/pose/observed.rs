@@ -10,8 +10,8 @@ use nalgebra::Point3;
 pub struct Observed {
     /// Points of it, evenly chosen, camera frame, metres.
     pub points: Vec<Point3<f32>>,
-    /// Of each point, its patch of the frame: errors of depth and of labels go together within one.
-    pub patch: Vec<u32>,
+    /// Of each point, column and row of its patch of the frame: errors of depth and of labels go together within one.
+    patch: Vec<[u32; 2]>,
     /// Its pixels in the frame.
     pub pixels: usize,
     /// The same as networks see it.
@@ -46,11 +46,10 @@ impl Observed {
         let point = |at: &usize| {
             let pixel = nalgebra::Point2::new((at % width) as f64, (at / width) as f64);
             let ray = camera.ray(&pixel)?.cast::<f32>();
-            let across = width.div_ceil(PATCH_PX);
-            let patch = at / width / PATCH_PX * across + at % width / PATCH_PX;
-            Some((Point3::from(ray * depth.depth_m()[*at]), patch as u32))
+            let patch = [at % width, at / width].map(|place| (place / PATCH_PX) as u32);
+            Some((Point3::from(ray * depth.depth_m()[*at]), patch))
         };
-        let all: Vec<(Point3<f32>, u32)> = pixels.iter().filter_map(point).collect();
+        let all: Vec<(Point3<f32>, [u32; 2])> = pixels.iter().filter_map(point).collect();
         let coordinates: Vec<[f32; 3]> = all.iter().map(|(point, _)| (*point).into()).collect();
         let view = EndEffectorView::new(&coordinates, extent_m)?;
         let middle = view.camera_from_view.translation_m().cast::<f32>();
@@ -67,6 +66,12 @@ impl Observed {
             camera: camera_of(&image, camera)?,
             image,
         })
+    }
+
+    /// Of each point, which patch it is in, if patches are so many times as large along an edge.
+    pub fn patches(&self, times: u32) -> Vec<u32> {
+        let number = |[u, v]: &[u32; 2]| (v / times) << 16 | (u / times);
+        self.patch.iter().map(number).collect()
     }
 
     /// Edge of a patch in pixels of the part of the image.

@@ -5,7 +5,7 @@ use super::keypoint_net::KeypointNet;
 use super::rotation_net::{PoseNetError, RotationNet};
 use super::shape::EndEffectorShape;
 use super::{PoseError, PoseMethod};
-use crate::model_files::ModelFiles;
+use crate::model_files::{LoadError, ModelFiles};
 use eyebolt_net::models::Model;
 
 impl PoseEstimator {
@@ -34,9 +34,10 @@ fn open<N>(
     if !model.has(name) {
         return Ok(None);
     }
-    let failed = |(path, source)| PoseError::Read { path, source };
-    let text = model.description(name).map_err(failed)?;
-    let weights = model.weights(name).map_err(failed)?;
-    let net = Model::load(&text, &weights).map_err(PoseNetError::from).and_then(make);
-    net.map(Some).map_err(|source| PoseError::Model { folder: model.place(name), source })
+    let of_it = |source| PoseError::Model { folder: model.place(name), source };
+    let network = model.load(name).map_err(|error| match error {
+        LoadError::Read { path, source } => PoseError::Read { path, source },
+        LoadError::Net(error) => of_it(error.into()),
+    })?;
+    make(network).map(Some).map_err(of_it)
 }

@@ -80,10 +80,8 @@ impl Recognizer {
         postures: &[Posture],
     ) -> Result<Recognized, RecognizeError> {
         let segmentation = self.segmenter.segment(depth, camera)?;
-        let mut first = self.posed(depth, camera, segmentation, postures)?;
-        if is_supported(&first) {
-            first = self.labelled_again(depth, camera, first, postures)?;
-        }
+        let first = self.posed(depth, camera, segmentation, postures)?;
+        let first = self.looked_at_again(depth, camera, first, postures)?;
         if is_answered(&first) && significance(&first) > CLEARLY {
             return Ok(first);
         }
@@ -92,10 +90,8 @@ impl Recognizer {
             self.segmenter.alternatives(depth, camera, &first.segmentation, ELSEWHERE)?
         {
             let other = self.posed(depth, camera, segmentation, postures)?;
-            if is_answered(&other) {
-                let again = self.labelled_again(depth, camera, other, postures)?;
-                found.extend(Some(again).filter(is_answered));
-            }
+            let again = self.looked_at_again(depth, camera, other, postures)?;
+            found.extend(Some(again).filter(is_answered));
         }
         let best = found.into_iter().max_by(|a, b| significance(a).total_cmp(&significance(b)));
         if is_answered(&first) {
@@ -128,6 +124,25 @@ impl Recognizer {
     ) -> Result<Recognized, RecognizeError> {
         let answer = self.estimator.estimate_at(depth, camera, &segmentation.label, postures)?;
         Ok(Recognized { segmentation, answer })
+    }
+
+    /// Once more by its own labels, if it may be right. Where half of what a network labels is something else, the pose is pulled
+    /// away: what explains some of it is looked at once more, too, and taken if that is clearly the shape.
+    fn looked_at_again(
+        &mut self,
+        depth: &DepthImage,
+        camera: &PinholeCamera,
+        found: Recognized,
+        postures: &[Posture],
+    ) -> Result<Recognized, RecognizeError> {
+        if is_supported(&found) {
+            return self.labelled_again(depth, camera, found, postures);
+        }
+        if !found.answer.as_ref().is_some_and(PoseAnswer::may_be_near) {
+            return Ok(found);
+        }
+        let again = self.labelled_again(depth, camera, found.clone(), postures)?;
+        Ok(if is_answered(&again) && significance(&again) > CLEARLY { again } else { found })
     }
 
     /// With the labels that the pose says, and the pose that these say. What the second look refuses is not relied on.

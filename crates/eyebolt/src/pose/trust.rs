@@ -6,7 +6,7 @@ use super::judged::Judged;
 use super::observed::Observed;
 use eyebolt_geometry::{Camera, EndEffector, Transform};
 use eyebolt_registration::{Errors, StopReason, clustered_covariance};
-use nalgebra::Point3;
+use nalgebra::{Matrix6, Point3};
 use std::fmt;
 
 /// How far off a pose is likely to be.
@@ -112,6 +112,8 @@ const NEAR_RAD: f64 = 0.25;
 const BIAS_M: f64 = 5e-4;
 const BIAS_PER_SQUARE_METRE_M: f64 = 1e-3;
 const PARTS: f64 = 0.25;
+/// Errors go together over as many pixels as residuals show: patches that are so many times as large along an edge are tried, too.
+const LARGER_PATCHES: [u32; 2] = [2, 4];
 /// Least share of the end-effector's pixels on the shape, and most of the shape's that the camera saw through.
 const LEAST_EXPLAINED: f64 = 0.5;
 const MOST_SEEN_THROUGH: f64 = 0.2;
@@ -130,21 +132,18 @@ const MOST_GOES_ON: f64 = 0.45;
 const FLOOR_M: f64 = 0.0003;
 const FLOOR_RAD: f64 = 0.001;
 
-/// Errors as the residuals have them, those of a patch of the image together; biases of the camera, which do not show; and
+/// Errors as the residuals have them, those of a patch of the image together, be it small or large; biases of the camera, which do not show; and
 /// what poses nearby that fit as well are apart.
 fn expected_error(contest: &Contest<'_>, best: &Judged, rivals: &[Rival]) -> Option<ExpectedError> {
     let fit = &best.fit;
     if fit.stop == StopReason::Underdetermined {
         return None;
     }
-    let Contest { shape, observed, openings } = contest;
-    let fitted = (&shape.model, openings.get(best.opening)?);
-    let covariance =
-        |errors| clustered_covariance(fitted, &observed.points, errors, fit, &Contest::LAST);
+    let Contest { shape, observed, .. } = contest;
     let bias_m = BIAS_M + BIAS_PER_SQUARE_METRE_M * observed.middle().z.powi(2);
     let parts = regions(observed, PARTS * shape.extent_m());
-    let covariance =
-        covariance(Errors::AsSeen(&observed.patch))? + covariance(Errors::Alike(&parts, bias_m))?;
+    let biased = covariance(contest, best, Errors::Alike(&parts, bias_m))?;
+    let covariance = as_seen(contest, best)? + biased;
     let trace = |first: usize| (first..first + 3).map(|at| covariance[(at, at)]).sum::<f64>();
     let near = rivals.iter().filter(|rival| rival.is_near() && rival.is_as_good());
     let farthest = near
@@ -155,6 +154,28 @@ fn expected_error(contest: &Contest<'_>, best: &Judged, rivals: &[Rival]) -> Opt
         translation_mm: 1e3 * root(trace(0) + (0.5 * farthest.0).powi(2), FLOOR_M),
         rotation_deg: root(trace(3) + (0.5 * farthest.1).powi(2), FLOOR_RAD).to_degrees(),
     })
+}
+
+/// The largest covariance that residuals show; `None` where the smallest patches show none.
+fn as_seen(contest: &Contest<'_>, best: &Judged) -> Option<Matrix6<f64>> {
+    let extent_m = contest.shape.extent_m();
+    let size = |covariance: &Matrix6<f64>| {
+        let [shift, turn] = [0, 3].map(|at| covariance.fixed_view::<3, 3>(at, at).trace());
+        shift + extent_m.powi(2) * turn
+    };
+    let by = |times: u32| {
+        let patches = contest.observed.patches(times);
+        covariance(contest, best, Errors::AsSeen(&patches))
+    };
+    let smallest = by(1)?;
+    let larger = LARGER_PATCHES.into_iter().filter_map(by);
+    larger.chain([smallest]).max_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+fn covariance(contest: &Contest<'_>, best: &Judged, errors: Errors<'_>) -> Option<Matrix6<f64>> {
+    let fitted = (&contest.shape.model, contest.openings.get(best.opening)?);
+    let points = &contest.observed.points;
+    clustered_covariance(fitted, points, errors, &best.fit, &Contest::LAST)
 }
 
 /// Of each point, which square of that edge before the camera it is in.

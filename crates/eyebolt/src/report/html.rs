@@ -75,6 +75,7 @@ pub fn html(answer: &Answer, outcome: &Outcome, context: &Context<'_>) -> String
     template::render(
         "page.html",
         context! {
+            version => answer.version,
             answer => Value::from_serialize(answer),
             recording => context.recording,
             trusted => answer.reasons.is_empty(),

@@ -3,7 +3,7 @@
 use super::end_effector_net::EndEffectorNet;
 use super::error::SegmentError;
 use super::segmenter::Segmenter;
-use crate::model_files::ModelFiles;
+use crate::model_files::{LoadError, ModelFiles};
 use eyebolt_net::models::Model;
 
 impl Segmenter {
@@ -40,9 +40,8 @@ impl Segmenter {
 }
 
 fn read(model: &ModelFiles, network: &str) -> Result<Model, SegmentError> {
-    let failed = |(path, source)| SegmentError::Read { path, source };
-    let text = model.description(network).map_err(failed)?;
-    let weights = model.weights(network).map_err(failed)?;
-    Model::load(&text, &weights)
-        .map_err(|error| SegmentError::from(error).of(&model.place(network)))
+    model.load(network).map_err(|error| match error {
+        LoadError::Read { path, source } => SegmentError::Read { path, source },
+        LoadError::Net(error) => SegmentError::from(error).of(&model.place(network)),
+    })
 }

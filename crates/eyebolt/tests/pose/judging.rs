@@ -148,3 +148,42 @@ fn a_hand_is_no_smooth_surface() {
     }
     assert!(seen >= 5, "{seen}");
 }
+
+/// A patch of failed matches on a hand is nothing that the camera saw through it; the scene behind a pose beside the hand is.
+#[test]
+fn a_failed_match_is_not_seen_through() {
+    let mut seen = 0;
+    for mut truth in frames("paper-test-p1") {
+        let width = truth.camera.width() as usize;
+        let label = &truth.label;
+        let hand: Vec<usize> = (0..label.len()).filter(|at| label[*at] == END_EFFECTOR).collect();
+        let mut columns: Vec<usize> = hand.iter().map(|at| at % width).collect();
+        columns.sort_unstable();
+        let quarter = |part: usize| columns.get(part * columns.len() / 4).copied();
+        let (Some(left), Some(right)) = (quarter(1), quarter(2)) else { continue };
+        let mut depth_m = truth.ideal.depth_m().to_vec();
+        for at in hand.into_iter().filter(|at| (left..right).contains(&(at % width))) {
+            depth_m[at] *= 1.1;
+            truth.label[at] = BACKGROUND;
+        }
+        truth.ideal =
+            DepthImage::new(truth.camera.width(), truth.camera.height(), depth_m).unwrap();
+        let Some(observed) = observed(&truth) else { continue };
+        seen += 1;
+        let posture = SHAPE.posture(&truth.joints);
+        let mut judge = Judge::new(&SHAPE, &observed);
+        let mut through = |pose| {
+            let support = judge.support(&posture, &pose, 0.004);
+            let close = judge.close_support(&posture, &pose, 0.004);
+            assert_eq!(support.shown, close.shown);
+            (support.seen_through, close.seen_through)
+        };
+        let (all, close) = through(truth.pose);
+        assert!(all > 0.12 && close < 0.03, "{all} {close}");
+        let turn = truth.pose.rotation();
+        let beside = truth.pose.translation_m() + 0.1 * Vector3::x();
+        let (all, close) = through(Transform::from_parts(beside, turn));
+        assert!(all > 0.3 && close > 0.8 * all, "{all} {close}");
+    }
+    assert!(seen >= 5, "{seen}");
+}

@@ -5,7 +5,6 @@ use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod, Recognizer};
 use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter, Told};
 use eyebolt_geometry::RayTable;
-use eyebolt_net::models::Model;
 use nalgebra::Isometry3;
 
 const PRESETS: [&str; 3] = ["paper-test-p1", "paper-test-p2", "paper-test-p3"];
@@ -80,10 +79,7 @@ fn a_pose_says_which_pixels_are_of_it() {
 /// A hand is found along its arm by a segmentation that does not know of hands.
 #[test]
 fn a_hand_is_found_along_its_arm() {
-    let model = model();
-    let text = model.description("end_effector").unwrap();
-    let model = Model::load(&text, &model.weights("end_effector").unwrap()).unwrap();
-    let mut net = EndEffectorNet::new(model).unwrap();
+    let mut net = EndEffectorNet::new(model().load("end_effector").unwrap()).unwrap();
     let mut found = 0;
     for truth in PRESETS.into_iter().flat_map(frames) {
         let without = |label: &u8| if *label == END_EFFECTOR { ARM } else { *label };

@@ -27,8 +27,8 @@ fn detector_at(rate: &Rate) -> Detector {
     let along =
         Belief::about_zero(&[FAR[0], STORED[1], STORED[2], STORED[3], STORED[4], STORED[5]]);
     let unmoved = Belief::about_zero(&STORED);
-    let beliefs = Beliefs { unmoved, suspects: vec![far, near, along], alike: 2 };
-    Detector::new(beliefs, rate)
+    let suspects = Suspects { pose: vec![far, near], others: vec![along] };
+    Detector::new(Beliefs { unmoved, suspects }, rate)
 }
 
 fn detector() -> Detector {
@@ -88,7 +88,7 @@ fn what_moved_is_found_in_three_views_and_its_drift_within_its_uncertainty() {
         });
         late += usize::from(!found);
         let moment = detector.moment().unwrap();
-        let (_, belief) = moment.first().unwrap();
+        let (_, belief) = moment.pose().unwrap();
         let off = &belief.mean - &moved;
         let inverse = belief.covariance.clone().try_inverse().unwrap();
         // Chi-square of six, exceeded once in a thousand.
@@ -111,7 +111,8 @@ fn views_that_say_nothing_change_nothing_and_one_view_is_no_alarm() {
     assert!((blind.log_evidence() - log_sum(before, -blind.log_limit)).abs() < 1e-9);
     let along = |detector: &Detector| {
         let moment = detector.moment().unwrap();
-        moment.suspects[2].0 - log_sum(moment.suspects[0].0, moment.suspects[1].0)
+        let Suspects { pose, others } = &moment.suspects;
+        others[0].0 - log_sum(pose[0].0, pose[1].0)
     };
     let mut slid = quiet.clone();
     let shift = DVector::from_row_slice(&[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]);

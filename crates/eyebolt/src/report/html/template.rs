@@ -7,7 +7,8 @@ use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
 pub const STYLE: &str = include_str!("style.css");
 
 /// Texts that stand in the page as they are, and those that are filled in.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
+    ("base.html", include_str!("base.html")),
     ("page.html", include_str!("page.html")),
     ("verdict.html", include_str!("verdict.html")),
     ("transform.html", include_str!("transform.html")),
