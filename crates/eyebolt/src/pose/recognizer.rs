@@ -43,6 +43,9 @@ pub enum RecognizeError {
 
 /// Other places where the end-effector is looked for.
 const ELSEWHERE: usize = 4;
+/// By so many standard deviations it has to be the shape and no smooth surface where most of what was labelled is neither: of a hand's frames
+/// one was somewhere else with 2.8, and right ones had 3.2 and more.
+const SURELY: f64 = 3.0;
 /// Depth this far from the posed shape is not of it, as a share of its extent: fingers may be a little more open.
 const ON_SHAPE: f64 = 0.06;
 
@@ -81,8 +84,9 @@ impl Recognizer {
     ) -> Result<Recognized, RecognizeError> {
         let segmentation = self.segmenter.segment(depth, camera)?;
         let first = self.posed(depth, camera, segmentation, postures)?;
+        let was_supported = is_supported(&first);
         let first = self.looked_at_again(depth, camera, first, postures)?;
-        if is_answered(&first) && significance(&first) > CLEARLY {
+        if was_supported && is_answered(&first) && significance(&first) > CLEARLY {
             return Ok(first);
         }
         let mut found: Vec<Recognized> = Vec::new();
@@ -90,13 +94,13 @@ impl Recognizer {
             self.segmenter.alternatives(depth, camera, &first.segmentation, ELSEWHERE)?
         {
             let other = self.posed(depth, camera, segmentation, postures)?;
-            let again = self.looked_at_again(depth, camera, other, postures)?;
-            found.extend(Some(again).filter(is_answered));
+            found.push(self.looked_at_again(depth, camera, other, postures)?);
         }
+        found.retain(is_answered);
         let best = found.into_iter().max_by(|a, b| significance(a).total_cmp(&significance(b)));
         if is_answered(&first) {
-            let better = best.filter(|best| significance(best) > CLEARLY);
-            return Ok(better.unwrap_or(first));
+            let clearest = CLEARLY.max(significance(&first));
+            return Ok(best.filter(|best| significance(best) > clearest).unwrap_or(first));
         }
         if let Some(best) = best {
             return Ok(best);
@@ -142,7 +146,7 @@ impl Recognizer {
             return Ok(found);
         }
         let again = self.labelled_again(depth, camera, found.clone(), postures)?;
-        Ok(if is_answered(&again) && significance(&again) > CLEARLY { again } else { found })
+        Ok(if is_answered(&again) && significance(&again) > SURELY { again } else { found })
     }
 
     /// With the labels that the pose says, and the pose that these say. What the second look refuses is not relied on.

@@ -157,12 +157,19 @@ fn a_failed_match_is_not_seen_through() {
         let width = truth.camera.width() as usize;
         let label = &truth.label;
         let hand: Vec<usize> = (0..label.len()).filter(|at| label[*at] == END_EFFECTOR).collect();
-        let mut columns: Vec<usize> = hand.iter().map(|at| at % width).collect();
-        columns.sort_unstable();
-        let quarter = |part: usize| columns.get(part * columns.len() / 4).copied();
-        let (Some(left), Some(right)) = (quarter(1), quarter(2)) else { continue };
+        // Within its outline.
+        let middle = |of: fn(usize, usize) -> usize| {
+            let mut all: Vec<usize> = hand.iter().map(|at| of(*at, width)).collect();
+            all.sort_unstable();
+            let quarter = |part: usize| all.get(part * all.len() / 4).copied();
+            Some(quarter(1)?..quarter(3)?)
+        };
+        let (Some(columns), Some(rows)) = (middle(|at, w| at % w), middle(|at, w| at / w)) else {
+            continue;
+        };
         let mut depth_m = truth.ideal.depth_m().to_vec();
-        for at in hand.into_iter().filter(|at| (left..right).contains(&(at % width))) {
+        let is_patch = |at: &usize| columns.contains(&(at % width)) && rows.contains(&(at / width));
+        for at in hand.into_iter().filter(is_patch) {
             depth_m[at] *= 1.1;
             truth.label[at] = BACKGROUND;
         }

@@ -46,7 +46,7 @@ fn what_is_answered_is_right() {
                 continue;
             };
             let add = add_m(found.camera_from_end_effector.isometry(), truth.pose.isometry());
-            assert!(add < 0.015, "{add} {:?}", found.support);
+            assert!(add < 0.015, "{add} {:?} {:?}", found.support, found.against_smooth);
             let expected = found.expected_error.unwrap();
             assert!(expected.translation_mm < 15.0 && expected.rotation_deg < 10.0, "{expected:?}");
         }
