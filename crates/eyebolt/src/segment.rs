@@ -9,6 +9,7 @@ mod features;
 mod grid;
 mod middle;
 mod open;
+mod second_opinion;
 mod segmenter;
 mod thinned;
 mod told;

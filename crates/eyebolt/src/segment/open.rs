@@ -3,19 +3,23 @@
 use super::end_effector_net::EndEffectorNet;
 use super::error::SegmentError;
 use super::segmenter::Segmenter;
-use crate::model_files::{LoadError, ModelFiles};
+use crate::model_files::{BuiltInModel, LoadError, ModelFiles};
 use eyebolt_net::models::Model;
 
 impl Segmenter {
-    /// Of a model, with all that it has for a segmentation; or of the folder of one network for whole frames.
+    /// Of a model, with all that it has for a segmentation; or of the folder of one network for whole frames. If it knows
+    /// one arm, `any-arm`, which comes with eyebolt, is asked for a second opinion.
     ///
     /// # Errors
     ///
     /// Files that are not there, broken, or of something else.
     pub fn open(model: &ModelFiles) -> Result<Self, SegmentError> {
         let whole = if model.has("") { "" } else { "segmentation" };
-        let segmenter =
+        let mut segmenter =
             Self::new(read(model, whole)?).map_err(|error| error.of(&model.place(whole)))?;
+        if let Some(any) = any_arm().filter(|_| segmenter.tells_end_effector()) {
+            segmenter = segmenter.with_second_opinion(read(&any, "segmentation")?);
+        }
         const NEAR: &str = "end_effector";
         if whole.is_empty() || !model.has(NEAR) {
             return Ok(segmenter);
@@ -37,6 +41,10 @@ impl Segmenter {
             false => Err(SegmentError::NoEndEffector { folder: model.place("") }),
         }
     }
+}
+
+fn any_arm() -> Option<ModelFiles> {
+    BuiltInModel::named("any-arm").map(ModelFiles::BuiltIn)
 }
 
 fn read(model: &ModelFiles, network: &str) -> Result<Model, SegmentError> {

@@ -8,6 +8,7 @@ use super::end_effector_net::EndEffectorNet;
 use super::error::SegmentError;
 use super::features::FEATURES;
 use super::grid::Grid;
+use super::second_opinion::SecondOpinion;
 use super::thinned::Thinned;
 use super::told::Told;
 use super::upsample::upsample;
@@ -21,6 +22,7 @@ pub struct Segmenter {
     model: Model,
     executor: Cpu,
     grid: Grid,
+    second: Option<SecondOpinion>,
     end_effector: Option<EndEffectorNet>,
     tells_probability: bool,
     /// Of the last camera: it is mostly the same.
@@ -36,7 +38,7 @@ pub struct Segmentation {
     pub height: usize,
     /// Of each pixel: [`BACKGROUND`], [`ARM`], [`END_EFFECTOR`] or [`UNKNOWN`](super::UNKNOWN).
     pub label: Vec<u8>,
-    /// The same by the network of whole frames alone.
+    /// The same by the networks of whole frames alone.
     pub whole: Vec<u8>,
     /// Of each pixel the probability of every class, by the network that looked from nearest, 0 where there is no depth; empty unless
     /// [`Segmenter::with_probabilities`] asked for it.
@@ -93,10 +95,17 @@ impl Segmenter {
             model,
             executor: Cpu::new(),
             grid,
+            second: None,
             end_effector: None,
             tells_probability: false,
             rays: None,
         })
+    }
+
+    /// Which also asks `model`, a network that knows arms in general and tells them from the rest: a pixel is as likely of the arm as the surer
+    /// one of the two says. One that sees images otherwise is not asked.
+    pub fn with_second_opinion(self, model: Model) -> Self {
+        Self { second: SecondOpinion::new(model, self.grid), ..self }
     }
 
     /// With a network that looks at the end-effector from near.
@@ -183,7 +192,7 @@ impl Segmenter {
         }
     }
 
-    /// What the network of whole frames alone tells, and the rays of the camera.
+    /// What the networks of whole frames alone tell, and the rays of the camera.
     fn whole(
         &mut self,
         depth: &DepthImage,
@@ -201,8 +210,11 @@ impl Segmenter {
         if !rows.is_empty() {
             let batch = self.grid.batch(&self.model.graph, &[&image])?;
             let Model { graph, parameters, .. } = &self.model;
-            let outputs = self.executor.infer(graph, parameters, &batch)?;
-            let all = (&image, rows.as_slice(), &outputs[0]);
+            let mut logits = self.executor.infer(graph, parameters, &batch)?.swap_remove(0);
+            if let Some(second) = &mut self.second {
+                second.raise(self.grid, &image, &mut logits)?;
+            }
+            let all = (&image, rows.as_slice(), &logits);
             upsample(depth, all, &[0..width, 0..height], &(0.0..f32::INFINITY), &mut told);
         }
         Ok((told, table))
