@@ -3,7 +3,7 @@
 use crate::scene::{SHAPE, frames};
 use eyebolt::model_files::ModelFiles;
 use eyebolt::pose::{PoseError, PoseEstimator, PoseMethod, Recognizer};
-use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter, Told};
+use eyebolt::segment::{ARM, END_EFFECTOR, EndEffectorNet, Segmenter, Told, UNKNOWN};
 use eyebolt_geometry::RayTable;
 use nalgebra::Isometry3;
 
@@ -74,6 +74,32 @@ fn a_pose_says_which_pixels_are_of_it() {
     }
     let [alone, posed] = counts.map(|[both, either]| both as f64 / either as f64);
     assert!(posed > alone + 0.05, "IoU {alone} alone, {posed} with a pose");
+}
+
+/// What a network of one arm does not see of it, one of arms in general does; and a network of something else is not asked.
+#[test]
+fn a_second_opinion_finds_more_of_an_arm() {
+    let own = || Segmenter::new(model().load("segmentation").unwrap()).unwrap();
+    let any_arm = ModelFiles::at("any-arm".into()).load("segmentation").unwrap();
+    let mut all = [
+        own(),
+        own().with_second_opinion(model().load("segmentation").unwrap()),
+        own().with_second_opinion(any_arm),
+    ];
+    let mut counts = [[0_usize; 2]; 3];
+    for truth in PRESETS.into_iter().flat_map(frames) {
+        for (segmenter, [both, either]) in all.iter_mut().zip(&mut counts) {
+            let label = segmenter.segment(&truth.depth, &truth.camera).unwrap().label;
+            for (found, is) in label.iter().zip(&truth.label).filter(|(_, is)| **is != UNKNOWN) {
+                let [is, said] = [is, found].map(|label| [ARM, END_EFFECTOR].contains(label));
+                *both += usize::from(is && said);
+                *either += usize::from(is || said);
+            }
+        }
+    }
+    let [alone, not_asked, two] = counts.map(|[both, either]| both as f64 / either as f64);
+    assert_eq!(alone, not_asked);
+    assert!(two > alone + 0.01, "IoU {alone} alone, {two} with a second opinion");
 }
 
 /// A hand is found along its arm by a segmentation that does not know of hands.
