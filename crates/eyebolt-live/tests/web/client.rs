@@ -48,10 +48,17 @@ pub fn exchange(address: SocketAddr, bytes: &[u8]) -> Vec<u8> {
 
 /// Asks by `method` for `path`, with more `headers`.
 pub fn ask(address: SocketAddr, method: &str, path: &str, headers: &str) -> Answer {
+    answered(
+        address,
+        &format!(
+            "{method} {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n{headers}\r\n"
+        ),
+    )
+}
+
+/// The answer to a whole request. What it is sent by stays open until then: of who hung up nobody hears whether he was refused.
+pub fn answered(address: SocketAddr, request: &str) -> Answer {
     let mut stream = connect(address);
-    let request = format!(
-        "{method} {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n{headers}\r\n"
-    );
     stream.write_all(request.as_bytes()).unwrap();
     let mut said = Vec::new();
     stream.read_to_end(&mut said).unwrap();
