@@ -1,7 +1,6 @@
 //! Where the networks of a model are.
 
-use eyebolt_models::BUILT_IN;
-pub use eyebolt_models::BuiltInModel;
+use eyebolt_models::{BUILT_IN, BuiltInModel};
 use eyebolt_net::models::Model;
 use std::borrow::Cow;
 use std::io::{Error, ErrorKind};
@@ -44,6 +43,11 @@ impl ModelFiles {
             Some(built_in) if !is_model => Self::BuiltIn(built_in),
             _ => Self::Folder(path),
         }
+    }
+
+    /// The one that comes with eyebolt and knows arms in general, whatever lies in the folder.
+    pub fn any_arm() -> Option<Self> {
+        BuiltInModel::named("any-arm").map(Self::BuiltIn)
     }
 
     /// Names of those that come with eyebolt.

@@ -5,7 +5,7 @@ use crate::simulate::flags::RobotArguments;
 use crate::simulate::numbers;
 use anyhow::{Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use eyebolt::model_files::{BuiltInModel, ModelFiles};
+use eyebolt::model_files::ModelFiles;
 use eyebolt::train::Preset;
 use std::path::PathBuf;
 
@@ -108,7 +108,7 @@ impl Arguments {
         if self.from.is_some() || self.from_nothing {
             return self.from.clone();
         }
-        let model = BuiltInModel::named("any-arm").map(ModelFiles::BuiltIn)?;
+        let model = ModelFiles::any_arm()?;
         let fits = !self.any_arm && self.preset == Preset::Default && model.has(kind.name());
         fits.then_some(model)
     }

@@ -3,7 +3,7 @@
 use super::end_effector_net::EndEffectorNet;
 use super::error::SegmentError;
 use super::segmenter::Segmenter;
-use crate::model_files::{BuiltInModel, LoadError, ModelFiles};
+use crate::model_files::{LoadError, ModelFiles};
 use eyebolt_net::models::Model;
 
 impl Segmenter {
@@ -17,7 +17,7 @@ impl Segmenter {
         let whole = if model.has("") { "" } else { "segmentation" };
         let mut segmenter =
             Self::new(read(model, whole)?).map_err(|error| error.of(&model.place(whole)))?;
-        if let Some(any) = any_arm().filter(|_| segmenter.tells_end_effector()) {
+        if let Some(any) = ModelFiles::any_arm().filter(|_| segmenter.tells_end_effector()) {
             segmenter = segmenter.with_second_opinion(read(&any, "segmentation")?);
         }
         const NEAR: &str = "end_effector";
@@ -41,10 +41,6 @@ impl Segmenter {
             false => Err(SegmentError::NoEndEffector { folder: model.place("") }),
         }
     }
-}
-
-fn any_arm() -> Option<ModelFiles> {
-    BuiltInModel::named("any-arm").map(ModelFiles::BuiltIn)
 }
 
 fn read(model: &ModelFiles, network: &str) -> Result<Model, SegmentError> {
